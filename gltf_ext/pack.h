@@ -1,0 +1,45 @@
+#pragma once
+// A mesh to a payload and back: the codec's sections and the attributes together.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gltf_ext/failure.h"
+#include "gltf_ext/polygon_mesh.h"
+
+namespace tutte {
+
+/// Quantisation in bits per component; 0 keeps an attribute as it is, without loss. Integer attributes, JOINTS and
+/// WEIGHTS are always coded without loss.
+struct PackOptions {
+  int position_bits = 14;
+  int normal_bits = 10;   ///< normals and tangents
+  int texcoord_bits = 12;
+  int color_bits = 8;
+  int generic_bits = 12;  ///< custom float attributes and morph-target deltas of anything but positions
+};
+
+/// A payload and how it relates to the mesh that it was made from.
+struct Packed {
+  std::vector<uint8_t> bytes;
+  std::vector<Index> face_order;    ///< coded face -> input face
+  std::vector<Index> corner_order;  ///< coded corner (of the decoded mesh's `polygons.corners`) -> input corner
+  std::vector<Index> wedge_order;   ///< coded wedge -> input wedge
+
+  // For reports.
+  Index splits = 0;
+  uint32_t connectivity_bytes = 0;  ///< the connectivity section: header, both streams, splits, joins
+  uint32_t valence_bytes = 0;
+  uint32_t degree_bytes = 0;
+  uint32_t seam_bytes = 0;
+  uint32_t attribute_bytes = 0;     ///< seams and attribute section
+  double connectivity_encode_seconds = 0;
+};
+
+Outcome<Packed> pack(const PolygonMesh& mesh, const PackOptions& options = {});
+
+/// The mesh that pack() stored, in coded order; its triangulation is always given. Any bytes may be passed.
+Outcome<PolygonMesh> unpack(std::span<const uint8_t> payload, const Limits& limits = {});
+
+}  // namespace tutte
