@@ -40,15 +40,49 @@ class Bit {
   uint16_t seen_ = 0;
 };
 
+/// Adaptive frequencies of `kSymbols` symbols: the multi-symbol arithmetic coding model of section 3.4.
+template <Index kSymbols>
+class SymbolModel {
+ public:
+  SymbolModel() { counts_.fill(kInitial); }
+
+  template <class Port>
+  Index code(Port& port, Index value = 0) {
+    if constexpr (!Port::kWriting) {
+      Index at = port.position(total_);
+      for (value = 0; at >= counts_[value]; ++value) at -= counts_[value];
+    }
+    Index start = 0;
+    for (Index s = 0; s < value; ++s) start += counts_[s];
+    port.take(start, counts_[value], total_);
+    update(value);
+    return value;
+  }
+
+ private:
+  static constexpr Index kInitial = 1, kIncrement = 12, kLimit = 1u << 13;
+
+  void update(Index value) {
+    counts_[value] += kIncrement;
+    total_ += kIncrement;
+    if (total_ <= kLimit) return;
+    total_ = 0;
+    for (Index& count : counts_) total_ += count = (count + 1) / 2;
+  }
+
+  std::array<Index, kSymbols> counts_;
+  Index total_ = kInitial * kSymbols;
+};
+
 /// Numbers of any size, small ones cheap: bit length of value + 1 in unary, then its bits below the leading one, of
-/// which the first is adaptive. At most 2^31 - 2; a damaged stream cannot make more than 2^32 - 2 either.
+/// which the first is adaptive. At most 2^31 - 2.
 class NumberModel {
  public:
   template <class Port>
   Index code(Port& port, Index value = 0) {
     const int length = std::bit_width(value + 1u) - 1;
     int bits = 0;
-    while (bits < 31 && length_[bits].code(port, bits < length)) ++bits;
+    while (bits < 30 && length_[bits].code(port, bits < length)) ++bits;
     Index result = 1;
     for (int i = bits - 1; i >= 0; --i) {
       const bool bit = (value + 1u) >> i & 1;

@@ -36,10 +36,10 @@ class RangeWriter {
   }
 
   /// One of `count` equally likely values. count <= 2^31.
-  Index uniform(Index count, Index value) { return interval(value, 1, count), value; }
+  Index uniform(Index count, Index value) { return take(value, 1, count), value; }
 
   /// The part [start, start + size) of `total`. total <= 2^31.
-  void interval(Index start, Index size, Index total) {
+  void take(Index start, Index size, Index total) {
     const uint64_t unit = range_ / total;
     advance(unit * start);
     range_ = unit * size;
@@ -105,19 +105,20 @@ class RangeReader {
 
   Index uniform(Index count, Index = 0) {
     const Index value = position(count);
-    take(value, 1);
+    take(value, 1, count);
     return value;
   }
 
-  /// Where in [0, total) the stream points; take() must follow.
-  Index position(Index total) {
-    unit_ = range_ / total;
-    const uint64_t at = code_ / unit_;
+  /// Where in [0, total) the stream points; the part that holds it must be taken.
+  Index position(Index total) const {
+    const uint64_t at = code_ / (range_ / total);
     return at < total ? static_cast<Index>(at) : total - 1;
   }
-  void take(Index start, Index size) {
-    code_ -= unit_ * start;
-    range_ = unit_ * size;
+
+  void take(Index start, Index size, Index total) {
+    const uint64_t unit = range_ / total;
+    code_ -= unit * start;
+    range_ = unit * size;
     if (code_ >= range_) code_ = range_ - 1;  // only damaged streams come here
     renew();
   }
@@ -125,6 +126,9 @@ class RangeReader {
   /// True once more was read than any writer leaves out: the stream is damaged. To be asked now and then, so that
   /// zeros behind the end cannot be decoded for ever.
   bool overrun() const { return next_ > bytes_.size() + 8; }
+
+  /// True when bytes are left that no writer would have written.
+  bool trailing() const { return next_ < bytes_.size(); }
 
  private:
   uint64_t word() {
@@ -149,7 +153,6 @@ class RangeReader {
   size_t next_ = 0;
   uint64_t code_ = 0;
   uint64_t range_ = ~uint64_t{0};
-  uint64_t unit_ = 1;
 };
 
 }  // namespace tutte

@@ -1,0 +1,97 @@
+#pragma once
+// The encoder's answers to the walk's questions, from the input mesh.
+
+#include <vector>
+
+#include "codec/gaps.h"
+#include "codec/topology.h"
+#include "codec/walk.h"
+
+namespace tutte {
+
+/// Follows the walk on a Topology. All answers take O(1), but for splits: O(min(x, y)) where a gap is cut into x and
+/// y slots, which is O(n log n) in all.
+class MeshOracle {
+ public:
+  static constexpr bool kKnows = true;
+
+  explicit MeshOracle(const Topology& topology)
+      : topology_(topology),
+        face_done_(topology.faces.faceCount(), 0),
+        umbrella_known_(topology.valence.size(), 0),
+        gap_at_(topology.twin.size(), kNone) {
+    start_corners_.reserve(topology.real_faces);
+    umbrella_order_.reserve(topology.valence.size());
+  }
+
+  /// In coded order: the topology's corner at which each real face begins, and the topology's umbrellas.
+  const std::vector<Index>& startCorners() const { return start_corners_; }
+  const std::vector<Index>& umbrellaOrder() const { return umbrella_order_; }
+
+  bool component() {
+    while (next_seed_ < topology_.real_faces && face_done_[next_seed_]) ++next_seed_;
+    return next_seed_ < topology_.real_faces;
+  }
+
+  void seed() {
+    enter(topology_.faces.first[next_seed_]);
+    corner_ = topology_.faces.prev(corner_);  // the first step() leads to the first corner
+  }
+  void start(const Gap& gap) {
+    enter(gap.outside);
+    step();
+  }
+  void step() { corner_ = topology_.faces.next(corner_); }
+  void cross(Gap& gap, Index number) {
+    gap.outside = topology_.twin[corner_];
+    gap_at_[gap.outside] = number;
+  }
+
+  FaceAnswer face() const {
+    const FaceCorners& faces = topology_.faces;
+    return {faces.first[face_ + 1] - faces.first[face_], topology_.isDummy(face_)};
+  }
+
+  Index vertex() {
+    const Index umbrella = topology_.faces.vertex[topology_.faces.next(corner_)];
+    if (umbrella_known_[umbrella]) return 0;
+    umbrella_known_[umbrella] = 1;
+    umbrella_order_.push_back(umbrella);
+    return topology_.valence[umbrella];
+  }
+
+  /// Looks for the ends of the gap on both sides of the face's slot in turn.
+  SplitAnswer split(const Gaps& gaps) const {
+    const FaceCorners& faces = topology_.faces;
+    Index after = faces.next(corner_), before = faces.prev(after);
+    for (Index steps = 0;; ++steps) {
+      if (done(topology_.twin[after])) return {gap_at_[after], steps};
+      if (done(topology_.twin[before])) {
+        const Index gap = gaps[gap_at_[before]].next;
+        return {gap, gaps[gap].free_slots - 1 - steps};
+      }
+      after = faces.next(topology_.twin[after]);
+      before = faces.prev(topology_.twin[before]);
+    }
+  }
+
+ private:
+  void enter(Index corner) {
+    face_ = topology_.faces.face[corner];
+    face_done_[face_] = 1;
+    if (!topology_.isDummy(face_)) start_corners_.push_back(corner);
+    corner_ = corner;
+  }
+
+  bool done(Index corner) const { return face_done_[topology_.faces.face[corner]]; }
+
+  const Topology& topology_;
+  std::vector<uint8_t> face_done_, umbrella_known_;
+  std::vector<Index> gap_at_;  // per corner outside the region: the gap whose leaving edge is its edge
+  std::vector<Index> start_corners_, umbrella_order_;
+  Index next_seed_ = 0;
+  Index face_ = 0, corner_ = 0;
+};
+
+
+}  // namespace tutte

@@ -1,0 +1,123 @@
+#pragma once
+// What was done to the input to make it a manifold, so that the decoder can undo it: faces turned round, faces of
+// degree below 3, vertices cut into umbrellas, isolated vertices. Written once for both directions.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "codec/mesh.h"
+#include "codec/model.h"
+#include "codec/result.h"
+
+namespace tutte {
+
+/// The encoder's knowledge, in coded order. A decoder passes an empty one.
+struct RepairNotes {
+  std::vector<uint8_t> flipped;      ///< per face of the walk; empty: none
+  std::vector<Index> stray_degrees;  ///< faces of degree 0, 1, 2; each of their corners is a new umbrella
+  std::vector<Index> vertices;       ///< per umbrella, the strays' included: its vertex, numbered by first appearance;
+                                     ///< empty: the identity
+  Index isolated = 0;                ///< vertices without a corner
+
+  bool any() const { return !flipped.empty() || !stray_degrees.empty() || !vertices.empty() || isolated != 0; }
+};
+
+template <class Port>
+class RepairCoder {
+ public:
+  /// `mesh` comes from the walk and is completed; `on_boundary` says which of its umbrellas a dummy face touches.
+  RepairCoder(Port& port, const RepairNotes& notes, std::span<const uint8_t> on_boundary, const Limits& limits,
+              Connectivity& mesh)
+      : port_(port), notes_(notes), on_boundary_(on_boundary), limits_(limits), mesh_(mesh) {}
+
+  Error run() {
+    if (port_.code(kEven, !notes_.flipped.empty())) codeFlips();
+    if (const Error error = codeStrays(); error != Error::kNone) return error;
+    mesh_.vertex_count = mesh_.umbrella_count;
+    if (port_.code(kEven, !notes_.vertices.empty())) {
+      if (const Error error = codeVertices(); error != Error::kNone) return error;
+    }
+    const Index isolated = number_.code(port_, notes_.isolated);
+    if (port_.overrun()) return Error::kTruncated;
+    if (mesh_.vertex_count > limits_.max_vertices || isolated > limits_.max_vertices - mesh_.vertex_count) {
+      return Error::kLimitExceeded;
+    }
+    mesh_.vertex_count += isolated;
+    return Error::kNone;
+  }
+
+ private:
+  static constexpr Probability kEven = 32768;
+
+  // A face is flipped like the face behind its first edge, mostly.
+  void codeFlips() {
+    std::array<Bit, 3> models;
+    const Index faces = static_cast<Index>(mesh_.face_degrees.size());
+    std::vector<Index> face_of(mesh_.umbrellas.size());
+    mesh_.flipped.resize(faces);
+    Index corner = 0;
+    for (Index f = 0; f < faces; ++f) {
+      const Index twin = mesh_.twins[corner];
+      const int context = twin < corner ? mesh_.flipped[face_of[twin]] : 2;
+      const bool truth = !notes_.flipped.empty() && notes_.flipped[f];
+      mesh_.flipped[f] = models[context].code(port_, truth);
+      for (const Index end = corner + mesh_.face_degrees[f]; corner < end; ++corner) face_of[corner] = f;
+    }
+  }
+
+  Error codeStrays() {
+    const Index count = number_.code(port_, static_cast<Index>(notes_.stray_degrees.size()));
+    if (port_.overrun()) return Error::kTruncated;
+    if (count > limits_.max_faces - mesh_.face_degrees.size()) return Error::kLimitExceeded;
+    for (Index i = 0; i < count; ++i) {
+      const Index degree = port_.uniform(3, notes_.stray_degrees.empty() ? 0 : notes_.stray_degrees[i]);
+      if (port_.overrun()) return Error::kTruncated;
+      if (degree > limits_.max_corners - mesh_.umbrellas.size()) return Error::kLimitExceeded;
+      mesh_.face_degrees.push_back(degree);
+      if (!mesh_.flipped.empty()) mesh_.flipped.push_back(0);
+      for (Index k = 0; k < degree; ++k) {
+        mesh_.umbrellas.push_back(mesh_.umbrella_count++);
+        mesh_.twins.push_back(kNone);
+      }
+    }
+    return Error::kNone;
+  }
+
+  // Per umbrella: does it belong to a vertex that has one already, and to which? References run on from the last one.
+  Error codeVertices() {
+    std::array<std::array<Bit, 2>, 3> joins;
+    std::array<Bit, 2> backwards;
+    std::array<NumberModel, 2> distance;
+    mesh_.vertices.resize(mesh_.umbrella_count);
+    Index count = 0, expected = 0;
+    bool joined_before = false;
+    for (Index u = 0; u < mesh_.umbrella_count; ++u) {
+      const Index truth = notes_.vertices.empty() ? 0 : notes_.vertices[u];
+      const int kind = u >= on_boundary_.size() ? 2 : on_boundary_[u];
+      const bool joined = count != 0 && joins[kind][joined_before].code(port_, truth != count);
+      if (joined) {
+        const bool back = backwards[joined_before].code(port_, truth < expected);
+        const Index steps = distance[joined_before].code(port_, back ? expected - 1 - truth : truth - expected);
+        const uint64_t vertex = back ? uint64_t{expected} - 1 - steps : uint64_t{expected} + steps;
+        if (vertex >= count) return Error::kMalformed;
+        mesh_.vertices[u] = static_cast<Index>(vertex);
+        expected = mesh_.vertices[u] + 1;
+      } else {
+        mesh_.vertices[u] = count++;
+      }
+      joined_before = joined;
+    }
+    mesh_.vertex_count = count;
+    return Error::kNone;
+  }
+
+  Port& port_;
+  const RepairNotes& notes_;
+  std::span<const uint8_t> on_boundary_;
+  const Limits& limits_;
+  Connectivity& mesh_;
+  NumberModel number_;
+};
+
+}  // namespace tutte

@@ -1,0 +1,44 @@
+#pragma once
+// Seams: where the wedges of a vertex part, and which attributes differ there.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/mesh.h"
+#include "codec/result.h"
+
+namespace tutte {
+
+/// The values of one attribute, `stride` bytes per coded wedge. Two values are equal when all bytes are.
+struct ValueView {
+  std::span<const uint8_t> data;
+  uint32_t stride = 0;
+};
+
+/// The wedge structure, in coded order (codec/wedges.h).
+struct Seams {
+  std::vector<Index> wedges;  ///< per coded corner
+  Index wedge_count = 0;
+  /// Per attribute slot, per coded corner: 1 when the edge from the corner to the next one of its face is a seam, that
+  /// is, when the attribute differs across the edge at one of its ends. Both corners of an edge say the same; 0 on
+  /// boundaries. Empty when the attribute never differs; slot 0 is always empty.
+  std::vector<std::vector<uint8_t>> attribute_seams;
+};
+
+/// Codes wedges that numberWedges() has put in order. `attributes` are all attributes: slot 0 (positions) is equal for
+/// all wedges of a vertex and is not looked at. O(corners * attributes) time.
+std::vector<uint8_t> encodeSeams(const Connectivity& mesh, std::span<const Index> wedges,
+                                 std::span<const ValueView> attributes);
+
+/// True when the wedges are the vertices: then there is nothing to code, and decodeSeams() is not to be called.
+bool wedgesAreVertices(const Connectivity& mesh, std::span<const Index> wedges);
+
+/// What a mesh has whose payload has no seams.
+Seams withoutSeams(const Connectivity& mesh, Index attribute_count);
+
+/// Decodes any bytes over a valid connectivity: the result is a wedge structure that holds together, or an error
+/// (kMalformed, kTruncated). O(corners * attributes) time; memory for seams only of attributes that have some.
+Result<Seams> decodeSeams(const Connectivity& mesh, std::span<const uint8_t> bytes, Index attribute_count);
+
+}  // namespace tutte
