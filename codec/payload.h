@@ -43,11 +43,11 @@ std::string_view nameOf(Section section);
 /// What a payload says about its mesh before anything is decoded. Claims, until unpack() has verified them.
 struct PayloadCounts {
   Index vertices = 0;
-  Index wedges = 0;      ///< >= vertices
-  Index faces = 0;       ///< interior rings are faces
+  Index wedges = 0;  ///< >= vertices
+  Index faces = 0;   ///< interior rings are faces
   Index corners = 0;
   Index triangles = 0;
-  Index groups = 1;      ///< <= max(1, faces)
+  Index groups = 1;  ///< <= max(1, faces)
   Index attributes = 0;
 
   bool operator==(const PayloadCounts&) const = default;
@@ -58,7 +58,7 @@ struct PayloadView {
   PayloadCounts counts;
   std::array<std::span<const uint8_t>, kSectionCount> sections;  ///< bytes of each section
   std::array<bool, kSectionCount> present{};
-  uint32_t header_bytes = 0;                                     ///< everything in front of the first section
+  uint32_t header_bytes = 0;  ///< everything in front of the first section
 
   std::span<const uint8_t> operator[](Section section) const { return sections[static_cast<size_t>(section)]; }
   bool has(Section section) const { return present[static_cast<size_t>(section)]; }

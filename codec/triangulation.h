@@ -12,8 +12,8 @@ namespace tutte {
 
 /// Triangles of every polygon, in face order. Empty `counts` means: none given, choose.
 struct Triangulation {
-  std::vector<Index> counts;         ///< per face: its triangles; 0 for interior rings (their exterior ring has them)
-  std::vector<Index> corners;        ///< three per triangle: indices into Polygons::corners
+  std::vector<Index> counts;   ///< per face: its triangles; 0 for interior rings (their exterior ring has them)
+  std::vector<Index> corners;  ///< three per triangle: indices into Polygons::corners
 };
 
 /// Every polygon as a fan from its first corner; interior rings (ring_owners[face] != kNone; the span may be empty) and

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "codec/mesh.h"
+#include "codec/triangulation.h"
 
 namespace tutte {
 
@@ -39,12 +40,6 @@ struct Attribute {
   std::vector<uint8_t> data;         ///< wedge_count * components * sizeOf(type) bytes, little-endian
 
   uint32_t stride() const { return components * sizeOf(type); }
-};
-
-/// Triangles of every polygon, in face order. Empty `counts` means: none given, choose.
-struct Triangulation {
-  std::vector<Index> counts;         ///< per face: its triangles; 0 for interior rings (their exterior ring has them)
-  std::vector<Index> corners;        ///< three per triangle: indices into Polygons::corners
 };
 
 /// One mesh: polygons over welded vertices, and attributes over wedges.

@@ -1,0 +1,300 @@
+#include "codec/triangulation.h"
+
+#include <algorithm>
+#include <array>
+
+#include "codec/model.h"
+#include "codec/polygon_table.h"
+#include "codec/range_coder.h"
+#include "codec/triangulation_shape.h"
+
+namespace tutte {
+namespace {
+
+/// Guesses a quad's diagonal from the quads around it that are known: does theirs touch the shared edge's origin or
+/// its end? In a regular grid all diagonals are parallel, so those of neighbours touch opposite ends.
+class DiagonalModel {
+ public:
+  DiagonalModel(const Connectivity& mesh, const PolygonTable& polygons)
+      : mesh_(mesh), polygons_(polygons), diagonal_(mesh.face_degrees.size(), kUnknown), face_of_(mesh.twins.size()) {
+    Index corner = 0;
+    for (Index face = 0; face < polygons.size(); ++face) {
+      for (Index i = 0; i < mesh.face_degrees[face]; ++i) face_of_[corner++] = face;
+    }
+  }
+
+  /// The lower of the two corners (0 or 1) that the diagonal of quad `face` joins. Flipping a quad does not change it.
+  template <class Port>
+  Index code(Port& port, Index face, Index first_corner, Index apex) {
+    std::array<int, 2> votes{};
+    for (Index i = 0; i < 4; ++i) count(first_corner, i, votes);
+    const bool guess = votes[1] > votes[0];
+    const int more = std::min(std::max(votes[0], votes[1]), 2);
+    const int fewer = std::min({votes[0], votes[1], 2});
+    const bool wrong = models_[(more * 3 + fewer) * 2 + last_wrong_].code(port, (apex != 0) != guess);
+    last_wrong_ = wrong;
+    return diagonal_[face] = guess != wrong;
+  }
+
+ private:
+  static constexpr uint8_t kUnknown = 2;
+
+  void count(Index first_corner, Index i, std::array<int, 2>& votes) const {
+    const Index twin = mesh_.twins[first_corner + i];
+    if (twin == kNone) return;
+    const Index neighbour = face_of_[twin];
+    if (diagonal_[neighbour] == kUnknown) return;
+    const bool touches_end = ((twin - polygons_.firstCorner(neighbour)) & 1) == diagonal_[neighbour];
+    ++votes[(i & 1) ^ (touches_end ? 0 : 1)];
+  }
+
+  const Connectivity& mesh_;
+  const PolygonTable& polygons_;
+  std::vector<uint8_t> diagonal_;  ///< per face; kUnknown unless it is a quad that was coded as a fan
+  std::vector<Index> face_of_;
+  std::array<Bit, 18> models_;
+  bool last_wrong_ = false;
+};
+
+/// The symbols of the section, for both directions.
+template <class Port>
+class TriangulationScript {
+ public:
+  TriangulationScript(Port& port, const Connectivity& mesh, const PolygonTable& polygons)
+      : port_(port), diagonals_(mesh, polygons) {}
+
+  /// Are there lists among polygons without holes? To be coded first.
+  void header(bool lists) { lists_ = port_.code(32768, lists); }
+
+  void polygon(Index face, const Polygon& polygon, Shape& shape) {
+    shape.kind = kindOf(polygon, shape.kind);
+    if (shape.kind == Kind::kFan) {
+      shape.apex = fan(face, polygon.exterior, shape.apex);
+    } else if (shape.kind == Kind::kTree) {
+      tree(polygon.exterior.degree, shape.triangles);
+    }
+  }
+
+  /// The number of triangles of a list; then each of them.
+  Index listLength(Index value) { return length_.code(port_, value); }
+  void listTriangle(Index corner_count, Triangle& t) {
+    for (Index& corner : t) corner = port_.uniform(corner_count, corner);
+  }
+
+ private:
+  Kind kindOf(const Polygon& polygon, Kind kind) {
+    const Index degree = polygon.exterior.degree;
+    if (!polygon.holes.empty()) return Kind::kList;
+    if (lists_ && list_[std::min(degree, 5u) - 3].code(port_, kind == Kind::kList)) return Kind::kList;
+    if (degree < 5) return Kind::kFan;
+    return fan_.code(port_, kind == Kind::kFan) ? Kind::kFan : Kind::kTree;
+  }
+
+  Index fan(Index face, const Ring& ring, Index apex) {
+    if (ring.degree == 3) return 0;
+    if (ring.degree == 4) return diagonals_.code(port_, face, ring.first, apex);
+    return elsewhere_.code(port_, apex != 0) ? 1 + port_.uniform(ring.degree - 1, apex - 1) : 0;
+  }
+
+  void tree(Index degree, std::vector<Triangle>& triangles) {
+    size_t next = 0;
+    triangles.resize(degree - 2);
+    walkTree(degree, stack_, [&](Index i, Index j) {
+      Triangle& t = triangles[next++];
+      t = {i, i + 1 + port_.uniform(j - i - 1, t[1] - i - 1), j};
+      return t[1];
+    });
+  }
+
+  Port& port_;
+  DiagonalModel diagonals_;
+  bool lists_ = false;
+  std::array<Bit, 3> list_;
+  Bit fan_, elsewhere_;
+  NumberModel length_;
+  std::vector<std::array<Index, 2>> stack_;
+};
+
+/// Reads the polygons' triangles one after the other.
+class Input {
+ public:
+  explicit Input(const Triangulation& triangulation) : triangulation_(triangulation) {}
+
+  /// The next `count` triangles, which must be the polygon's own.
+  bool read(const Polygon& polygon, Index count, std::vector<Triangle>& triangles) {
+    triangles.resize(count);
+    for (Triangle& t : triangles) {
+      for (Index& corner : t) {
+        corner = polygon.localOf(triangulation_.corners[next_++]);
+        if (corner == kNone) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  const Triangulation& triangulation_;
+  size_t next_ = 0;
+};
+
+Error checkInput(const PolygonTable& polygons, size_t face_count, const Triangulation& triangulation) {
+  if (triangulation.counts.size() != face_count) return Error::kCountMismatch;
+  uint64_t total = 0;
+  for (Index face = 0; face < face_count; ++face) {
+    const Index count = triangulation.counts[face];
+    if (count != 0 && (polygons.isHole(face) || !polygons[face].drawable())) return Error::kMalformed;
+    total += count;
+  }
+  return 3 * total == triangulation.corners.size() ? Error::kNone : Error::kCountMismatch;
+}
+
+bool isDefault(const Polygon& polygon, const Shape& shape) {
+  return polygon.holes.empty() && shape.kind == Kind::kFan && shape.apex == 0;
+}
+
+/// What must be known before the first symbol.
+struct Survey {
+  bool all_default = true;
+  bool lists = false;
+};
+
+Result<Survey> survey(const PolygonTable& polygons, size_t face_count, const Triangulation& triangulation) {
+  Survey result;
+  Input input(triangulation);
+  Shape shape;
+  ShapeFinder finder(shape);
+  for (Index face = 0; face < face_count; ++face) {
+    if (polygons.isHole(face) || !polygons[face].drawable()) continue;
+    const Polygon polygon = polygons[face];
+    if (!input.read(polygon, triangulation.counts[face], shape.triangles)) return Error::kIndexOutOfRange;
+    finder.classify(polygon);
+    result.all_default &= isDefault(polygon, shape);
+    result.lists |= polygon.holes.empty() && shape.kind == Kind::kList;
+  }
+  return result;
+}
+
+/// Appends triangles to the result.
+class Output {
+ public:
+  Output(Triangulation& triangulation, size_t face_count) : triangulation_(triangulation) {
+    triangulation_.counts.resize(face_count);
+  }
+
+  void fan(Index face, const Ring& ring, Index apex) {
+    const auto corner = [&](Index i) { return ring.first + (apex + i) % ring.degree; };
+    for (Index i = 1; i + 1 < ring.degree; ++i) triangle(face, {corner(0), corner(i), corner(i + 1)});
+  }
+
+  void triangle(Index face, const Triangle& corners) {
+    triangulation_.corners.insert(triangulation_.corners.end(), corners.begin(), corners.end());
+    ++triangulation_.counts[face];
+  }
+
+ private:
+  Triangulation& triangulation_;
+};
+
+/// Decodes polygon by polygon, never more than `max_triangles` in all.
+class Decoder {
+ public:
+  Decoder(RangeReader& port, const Connectivity& mesh, const PolygonTable& polygons, Index max_triangles,
+          Triangulation& result)
+      : port_(port), script_(port, mesh, polygons), output_(result, mesh.face_degrees.size()), left_(max_triangles) {
+    script_.header(false);
+  }
+
+  Error polygon(Index face, const Polygon& polygon) {
+    const bool simple = polygon.holes.empty();
+    if (simple && polygon.exterior.degree - 2 > left_) return Error::kLimitExceeded;
+    script_.polygon(face, polygon, shape_);
+    if (shape_.kind == Kind::kList) return list(face, polygon);
+    left_ -= polygon.exterior.degree - 2;
+    if (shape_.kind == Kind::kFan) output_.fan(face, polygon.exterior, shape_.apex);
+    if (shape_.kind == Kind::kTree) {
+      const Index first = polygon.exterior.first;
+      for (const auto& t : shape_.triangles) output_.triangle(face, {first + t[0], first + t[1], first + t[2]});
+    }
+    return port_.overrun() ? Error::kTruncated : Error::kNone;
+  }
+
+ private:
+  Error list(Index face, const Polygon& polygon) {
+    const Index count = script_.listLength(0);
+    if (count > left_) return Error::kLimitExceeded;
+    left_ -= count;
+    polygon.listCorners(corners_);
+    for (Index i = 0; i < count; ++i) {
+      Triangle t{};
+      script_.listTriangle(polygon.corner_count, t);
+      if (port_.overrun()) return Error::kTruncated;
+      output_.triangle(face, {corners_[t[0]], corners_[t[1]], corners_[t[2]]});
+    }
+    return port_.overrun() ? Error::kTruncated : Error::kNone;
+  }
+
+  RangeReader& port_;
+  TriangulationScript<RangeReader> script_;
+  Output output_;
+  Index left_;
+  Shape shape_;
+  std::vector<Index> corners_;
+};
+
+}  // namespace
+
+Triangulation fanTriangulation(PolygonView mesh, std::span<const Index> ring_owners) {
+  Triangulation result;
+  Output output(result, mesh.face_degrees.size());
+  Index first = 0;
+  for (Index face = 0; face < mesh.face_degrees.size(); ++face) {
+    const Index degree = mesh.face_degrees[face];
+    if (ring_owners.empty() || ring_owners[face] == kNone) output.fan(face, {first, degree, 0}, 0);
+    first += degree;
+  }
+  return result;
+}
+
+Result<std::vector<uint8_t>> encodeTriangulation(const Connectivity& mesh, std::span<const Index> ring_owners,
+                                                 const Triangulation& triangulation) {
+  const PolygonTable polygons(mesh.face_degrees, ring_owners);
+  const size_t face_count = mesh.face_degrees.size();
+  if (const Error error = checkInput(polygons, face_count, triangulation); error != Error::kNone) return error;
+  const Result<Survey> found = survey(polygons, face_count, triangulation);
+  if (!found) return found.error();
+  if (found->all_default) return std::vector<uint8_t>{};
+
+  RangeWriter port;
+  TriangulationScript<RangeWriter> script(port, mesh, polygons);
+  script.header(found->lists);
+  Input input(triangulation);
+  Shape shape;
+  ShapeFinder finder(shape);
+  for (Index face = 0; face < face_count; ++face) {
+    const Polygon polygon = polygons[face];
+    if (polygons.isHole(face) || !polygon.drawable()) continue;
+    (void)input.read(polygon, triangulation.counts[face], shape.triangles);
+    finder.classify(polygon);
+    script.polygon(face, polygon, shape);
+    if (shape.kind != Kind::kList) continue;
+    script.listLength(triangulation.counts[face]);
+    for (Triangle& t : shape.triangles) script.listTriangle(polygon.corner_count, t);
+  }
+  return std::move(port).finish();
+}
+
+Result<Triangulation> decodeTriangulation(const Connectivity& mesh, std::span<const Index> ring_owners,
+                                          std::span<const uint8_t> bytes, Index max_triangles) {
+  const PolygonTable polygons(mesh.face_degrees, ring_owners);
+  RangeReader port(bytes);
+  Triangulation result;
+  Decoder decoder(port, mesh, polygons, max_triangles, result);
+  for (Index face = 0; face < mesh.face_degrees.size(); ++face) {
+    const Polygon polygon = polygons[face];
+    if (polygons.isHole(face) || !polygon.drawable()) continue;
+    if (const Error error = decoder.polygon(face, polygon); error != Error::kNone) return error;
+  }
+  return result;
+}
+
+}  // namespace tutte
