@@ -2,9 +2,13 @@
 // JSON read without exceptions: every look-up checks kind and range, and names the place in its Failure.
 
 #include <cstdint>
+#include <exception>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "gltf_ext/failure.h"
 
@@ -68,5 +72,19 @@ Failure invalid(std::string where, std::string what);
 
 /// Shorthand for a kUnsupported failure.
 Failure unsupported(std::string where, std::string what);
+
+/// Runs `work`, turning what a library below throws (memory, JSON types) into a Failure.
+template <class T, class Work>
+Outcome<T> guarded(Work&& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return unsupported("", "out of memory");
+  } catch (const std::length_error&) {
+    return unsupported("", "out of memory");
+  } catch (const std::exception& error) {
+    return invalid("", error.what());
+  }
+}
 
 }  // namespace tutte
