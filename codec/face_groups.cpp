@@ -119,6 +119,7 @@ Result<std::vector<Index>> decodeGroups(const Connectivity& mesh, std::span<cons
   RangeReader port(bytes);
   std::vector<Index> groups(mesh.face_degrees.size());
   if (!GroupScript<RangeReader>(port, mesh, group_count).code(groups)) return Error::kTruncated;
+  if (port.trailing()) return Error::kTrailingBytes;
   return groups;
 }
 
@@ -154,6 +155,7 @@ Result<std::vector<Index>> decodeRings(std::span<const uint8_t> bytes, Index fac
     next = ring + 1;
   }
   if (port.overrun()) return Error::kTruncated;
+  if (port.trailing()) return Error::kTrailingBytes;
   if (!ringsAreValid(owners, {})) return Error::kMalformed;
   return owners;
 }

@@ -33,7 +33,8 @@ Index raised(uint32_t stored, Index by) {
 bool plausible(const Header& header) {
   const PayloadCounts& counts = header.counts;
   if (counts.wedges < counts.vertices || counts.groups == 0) return false;
-  if (header.flags & flagOf(Section::kAttributes) && counts.attributes == 0) return false;
+  if ((header.flags & flagOf(Section::kAttributes)) && counts.attributes == 0) return false;
+  if (counts.attributes > kMaxAttributes) return false;
   if ((header.flags & kTriangleCountFlag) && counts.triangles == usualTriangles(counts)) return false;
   return counts.groups <= std::max(counts.faces, 1u);
 }

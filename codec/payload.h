@@ -37,6 +37,9 @@ enum class Section : uint8_t {
 };
 inline constexpr int kSectionCount = 6;
 
+/// More attributes than a mesh of glTF has in practice; a payload that claims more is refused.
+inline constexpr Index kMaxAttributes = 1024;
+
 /// The section's name in reports and in the specification, such as "CONNECTIVITY".
 std::string_view nameOf(Section section);
 
@@ -47,8 +50,8 @@ struct PayloadCounts {
   Index faces = 0;   ///< interior rings are faces
   Index corners = 0;
   Index triangles = 0;
-  Index groups = 1;  ///< <= max(1, faces)
-  Index attributes = 0;
+  Index groups = 1;      ///< <= max(1, faces)
+  Index attributes = 0;  ///< <= kMaxAttributes
 
   bool operator==(const PayloadCounts&) const = default;
 };

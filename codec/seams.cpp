@@ -245,6 +245,7 @@ Result<Seams> decodeSeams(const Connectivity& mesh, std::span<const uint8_t> byt
   seams.attribute_seams.resize(attribute_count);
   decodeAttributeSeams(port, mesh, links, parted, seams.attribute_seams);
   if (port.overrun()) return Error::kTruncated;
+  if (port.trailing()) return Error::kTrailingBytes;
   return seams;
 }
 

@@ -38,7 +38,8 @@ bool wedgesAreVertices(const Connectivity& mesh, std::span<const Index> wedges);
 Seams withoutSeams(const Connectivity& mesh, Index attribute_count);
 
 /// Decodes any bytes over a valid connectivity: the result is a wedge structure that holds together, or an error
-/// (kMalformed, kTruncated). O(corners * attributes) time; memory for seams only of attributes that have some.
+/// (kMalformed, kTruncated, kTrailingBytes). O(corners * attributes) time; memory for seams only of attributes that
+/// have some.
 Result<Seams> decodeSeams(const Connectivity& mesh, std::span<const uint8_t> bytes, Index attribute_count);
 
 }  // namespace tutte

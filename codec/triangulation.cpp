@@ -255,14 +255,15 @@ Triangulation fanTriangulation(PolygonView mesh, std::span<const Index> ring_own
   return result;
 }
 
-Result<std::vector<uint8_t>> encodeTriangulation(const Connectivity& mesh, std::span<const Index> ring_owners,
-                                                 const Triangulation& triangulation) {
+Result<std::optional<std::vector<uint8_t>>> encodeTriangulation(const Connectivity& mesh,
+                                                                std::span<const Index> ring_owners,
+                                                                const Triangulation& triangulation) {
   const PolygonTable polygons(mesh.face_degrees, ring_owners);
   const size_t face_count = mesh.face_degrees.size();
   if (const Error error = checkInput(polygons, face_count, triangulation); error != Error::kNone) return error;
   const Result<Survey> found = survey(polygons, face_count, triangulation);
   if (!found) return found.error();
-  if (found->all_default) return std::vector<uint8_t>{};
+  if (found->all_default) return std::optional<std::vector<uint8_t>>{};
 
   RangeWriter port;
   TriangulationScript<RangeWriter> script(port, mesh, polygons);
@@ -280,7 +281,7 @@ Result<std::vector<uint8_t>> encodeTriangulation(const Connectivity& mesh, std::
     script.listLength(triangulation.counts[face]);
     for (Triangle& t : shape.triangles) script.listTriangle(polygon.corner_count, t);
   }
-  return std::move(port).finish();
+  return std::optional(std::move(port).finish());
 }
 
 Result<Triangulation> decodeTriangulation(const Connectivity& mesh, std::span<const Index> ring_owners,
@@ -294,6 +295,7 @@ Result<Triangulation> decodeTriangulation(const Connectivity& mesh, std::span<co
     if (polygons.isHole(face) || !polygon.drawable()) continue;
     if (const Error error = decoder.polygon(face, polygon); error != Error::kNone) return error;
   }
+  if (port.trailing()) return Error::kTrailingBytes;
   return result;
 }
 

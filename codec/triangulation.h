@@ -2,6 +2,7 @@
 // The triangles that polygons are drawn with.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,11 +26,12 @@ Triangulation fanTriangulation(PolygonView mesh, std::span<const Index> ring_own
 /// at. Returns nothing when the triangulation is fanTriangulation(). Errors: kCountMismatch, kIndexOutOfRange (a
 /// triangle uses a corner of another polygon), kMalformed (triangles of an interior ring or of a face whose polygon,
 /// holes included, has fewer than 3 corners).
-Result<std::vector<uint8_t>> encodeTriangulation(const Connectivity& mesh, std::span<const Index> ring_owners,
-                                                 const Triangulation& triangulation);
+Result<std::optional<std::vector<uint8_t>>> encodeTriangulation(const Connectivity& mesh,
+                                                                std::span<const Index> ring_owners,
+                                                                const Triangulation& triangulation);
 
 /// Any bytes may be passed; `ring_owners` is empty or valid. At most `max_triangles` are made (kLimitExceeded). Other
-/// error: kTruncated. Every triangle uses corners of its own polygon.
+/// errors: kTruncated, kTrailingBytes. Every triangle uses corners of its own polygon.
 Result<Triangulation> decodeTriangulation(const Connectivity& mesh, std::span<const Index> ring_owners,
                                           std::span<const uint8_t> bytes, Index max_triangles);
 
