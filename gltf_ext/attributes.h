@@ -26,8 +26,12 @@ struct AttributeTopology {
 Outcome<std::vector<uint8_t>> encodeAttributes(const AttributeTopology& topology,
                                                std::span<const Attribute> attributes, const PackOptions& options);
 
-/// Attribute descriptions (everything but `data`) at the head of the section, so that seams can be read before values.
-/// Any bytes may be passed to both functions; counts are checked against the topology before memory is taken.
+/// The attribute descriptions (everything but `data`) at the head of the section, so that seams can be read before
+/// values. Any bytes may be passed; at most 4096 attributes.
+Outcome<std::vector<Attribute>> describeAttributes(std::span<const uint8_t> bytes);
+
+/// All attributes, or a Failure. Any bytes may be passed: nothing escapes but the Outcome, and memory is in proportion
+/// to attributes * wedges, corners and bytes.
 Outcome<std::vector<Attribute>> decodeAttributes(const AttributeTopology& topology, std::span<const uint8_t> bytes);
 
 }  // namespace tutte

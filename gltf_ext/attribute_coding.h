@@ -1,0 +1,87 @@
+#pragma once
+// How one attribute becomes whole numbers, and back. Free of Draco, so that the formulas stand in one place.
+//
+// Decoded values are exact functions of the coded numbers; they use double precision with one operation after the
+// other and one final rounding to float, so every platform makes the same bits.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "codec/bytes.h"
+#include "gltf_ext/attribute_name.h"
+#include "gltf_ext/pack.h"
+#include "gltf_ext/polygon_mesh.h"
+
+namespace tutte {
+
+/// The numbers are part of the format.
+enum class CodingKind : uint8_t {
+  kConstant = 0,         ///< all wedges have `constant`
+  kQuantised = 1,        ///< float(origin[c] + q * range / (2^bits - 1)), operations from the right
+  kOctahedral = 2,       ///< pointToVector() of two numbers (octahedron.h)
+  kOctahedralSigned = 3, ///< the same, and a fourth component of -1 or 1
+  kWords = 4,            ///< an order-preserving word per component (wordOf()), less `base`
+  kSplitWords = 5,       ///< words in two halves: upper 16 bits, lower 16 bits
+  kFractions = 6,        ///< float(k / denominator) for the integer k = q + base - 2^31
+};
+
+/// Everything that the values need besides the numbers themselves.
+struct AttributeCoding {
+  CodingKind kind = CodingKind::kConstant;
+  int bits = 0;                          ///< kQuantised: 1 to 24; kOctahedral...: 2 to 24
+  std::array<float, 4> origin{};         ///< kQuantised: the least value, per component
+  float range = 0;                       ///< kQuantised: the largest extent of a component
+  uint8_t signs = 0;                     ///< kOctahedralSigned: 0 all -1, 1 all 1, 2 mixed
+  uint32_t base = 0;                     ///< kWords, kFractions
+  uint32_t denominator = 1;              ///< kFractions
+  std::vector<uint8_t> constant;         ///< kConstant: one value
+};
+
+/// What a plane's numbers are like, which decides about their prediction.
+enum class PlaneKind : uint8_t {
+  kPosition,   ///< the parent that texture coordinates and normals are predicted from; always plane 0
+  kSmooth,     ///< neighbours have similar values
+  kTexcoord,   ///< predicted from positions
+  kNormal,     ///< octahedral, predicted from positions
+  kDirection,  ///< octahedral, not predicted from positions
+  kLabel,      ///< anything
+};
+
+/// Whole numbers in [0, max], `components` per wedge.
+struct Plane {
+  PlaneKind kind = PlaneKind::kSmooth;
+  size_t attribute = 0;         ///< whose numbers
+  uint8_t components = 1;
+  int32_t max = 0;
+  std::vector<int32_t> values;
+
+  bool octahedral() const { return kind == PlaneKind::kNormal || kind == PlaneKind::kDirection; }
+};
+
+/// The coding that the options ask for:
+/// - one value everywhere: kConstant;
+/// - integers, JOINTS, WEIGHTS, attributes with 0 bits, and those that are not finite: without loss, by words or, if
+///   all floats are fractions of 1, 255 or 65535, by these (also for the other floats, when that costs no more bits);
+/// - NORMAL of unit vectors (to 2^-bits): octahedral; otherwise quantised;
+/// - TANGENT of unit vectors with signs: octahedral with signs; otherwise without loss, as rounding would make it invalid;
+/// - other floats: quantised.
+AttributeCoding chooseCoding(const Attribute& attribute, const PackOptions& options);
+
+/// The planes of an attribute, without values. None for kConstant.
+std::vector<Plane> planesOf(const Attribute& attribute, const AttributeCoding& coding, size_t index);
+
+/// Fills the planes from the attribute's data.
+void splitValues(const Attribute& attribute, const AttributeCoding& coding, std::span<Plane> planes);
+
+/// The attribute's data from its planes; false when a number is outside its plane's range or the attribute's type.
+bool joinValues(std::span<const Plane> planes, const AttributeCoding& coding, Index wedge_count, Attribute& attribute);
+
+void writeCoding(const AttributeCoding& coding, const Attribute& attribute, ByteWriter& out);
+
+/// Nothing when the bytes are no coding of such an attribute.
+std::optional<AttributeCoding> readCoding(ByteReader& in, const Attribute& attribute);
+
+}  // namespace tutte

@@ -1,0 +1,187 @@
+// Attribute data <-> planes of whole numbers: the formulas of attribute_coding.h.
+
+#include <algorithm>
+#include <cmath>
+
+#include "gltf_ext/attribute_coding.h"
+#include "gltf_ext/attribute_words.h"
+#include "gltf_ext/octahedron.h"
+
+namespace tutte {
+namespace {
+
+constexpr uint32_t kFractionZero = 0x80000000u;
+constexpr int kSignsMixed = 2;
+
+// Draco's predictors multiply: beyond these bits their 64-bit products could overflow.
+constexpr int kMaxParentBits = 20;
+constexpr int kMaxTexcoordBits = 18;
+
+int32_t largest(int bits) { return static_cast<int32_t>((1u << bits) - 1); }
+
+PlaneKind kindOf(const Attribute& attribute, const AttributeCoding& coding, size_t index) {
+  const AttributeName name = parseName(attribute.name);
+  const int components = attribute.components;
+  if (name.is_target) return PlaneKind::kSmooth;
+  if (name.semantic == Semantic::kPosition && index == 0 && components == 3 && coding.bits <= kMaxParentBits) {
+    return PlaneKind::kPosition;
+  }
+  if (name.semantic == Semantic::kTexcoord && components == 2 && coding.bits <= kMaxTexcoordBits) {
+    return PlaneKind::kTexcoord;
+  }
+  const bool label = coding.kind != CodingKind::kQuantised &&
+                     (name.semantic == Semantic::kCustom || name.semantic == Semantic::kJoints ||
+                      name.semantic == Semantic::kWeights);
+  return label ? PlaneKind::kLabel : PlaneKind::kSmooth;
+}
+
+Plane plane(PlaneKind kind, size_t attribute, int components, int32_t max) {
+  Plane result;
+  result.kind = kind;
+  result.attribute = attribute;
+  result.components = static_cast<uint8_t>(components);
+  result.max = max;
+  return result;
+}
+
+template <class Each>
+void forEachComponent(const Attribute& attribute, Each each) {
+  const uint32_t size = sizeOf(attribute.type);
+  for (size_t i = 0; i * size < attribute.data.size(); ++i) each(i, &attribute.data[i * size]);
+}
+
+void quantise(const Attribute& attribute, const AttributeCoding& coding, Plane& out) {
+  const double steps = largest(coding.bits);
+  forEachComponent(attribute, [&](size_t i, const uint8_t* data) {
+    const double offset = double{loadFloat(data)} - coding.origin[i % attribute.components];
+    const double number = coding.range > 0 ? std::floor(offset * steps / coding.range + 0.5) : 0;
+    out.values[i] = static_cast<int32_t>(std::clamp(number, 0.0, steps));
+  });
+}
+
+void toOctahedron(const Attribute& attribute, const AttributeCoding& coding, std::span<Plane> planes) {
+  const uint32_t stride = attribute.stride();
+  for (size_t w = 0; w * stride < attribute.data.size(); ++w) {
+    const uint8_t* data = &attribute.data[w * stride];
+    const auto point = vectorToPoint({loadFloat(data), loadFloat(data + 4), loadFloat(data + 8)}, coding.bits);
+    std::copy(point.begin(), point.end(), &planes[0].values[2 * w]);
+    if (planes.size() > 1) planes[1].values[w] = loadFloat(data + 12) > 0;
+  }
+}
+
+void toWords(const Attribute& attribute, const AttributeCoding& coding, std::span<Plane> planes) {
+  forEachComponent(attribute, [&](size_t i, const uint8_t* data) {
+    const uint32_t word = wordOf(data, attribute.type);
+    if (coding.kind == CodingKind::kWords) {
+      planes[0].values[i] = static_cast<int32_t>(word - coding.base);
+    } else {
+      planes[0].values[i] = static_cast<int32_t>(word >> 16);
+      planes[1].values[i] = static_cast<int32_t>(word & 0xFFFF);
+    }
+  });
+}
+
+void toFractions(const Attribute& attribute, const AttributeCoding& coding, Plane& out) {
+  forEachComponent(attribute, [&](size_t i, const uint8_t* data) {
+    const auto numerator = static_cast<int32_t>(std::nearbyint(double{loadFloat(data)} * coding.denominator));
+    out.values[i] = static_cast<int32_t>(static_cast<uint32_t>(numerator) + kFractionZero - coding.base);
+  });
+}
+
+void dequantise(const Plane& in, const AttributeCoding& coding, Attribute& out) {
+  const double steps = largest(coding.bits);
+  for (size_t i = 0; i < in.values.size(); ++i) {
+    const double offset = in.values[i] * double{coding.range} / steps;
+    storeFloat(&out.data[4 * i], static_cast<float>(double{coding.origin[i % out.components]} + offset));
+  }
+}
+
+void fromOctahedron(std::span<const Plane> planes, const AttributeCoding& coding, Attribute& out) {
+  for (size_t w = 0; 2 * w < planes[0].values.size(); ++w) {
+    uint8_t* data = &out.data[w * out.stride()];
+    const auto vector = pointToVector({planes[0].values[2 * w], planes[0].values[2 * w + 1]}, coding.bits);
+    for (int c = 0; c < 3; ++c) storeFloat(data + 4 * c, vector[c]);
+    if (out.components != 4) continue;
+    const bool positive = coding.signs == kSignsMixed ? planes[1].values[w] != 0 : coding.signs != 0;
+    storeFloat(data + 12, positive ? 1.0f : -1.0f);
+  }
+}
+
+bool fromWords(std::span<const Plane> planes, const AttributeCoding& coding, Attribute& out) {
+  const uint32_t size = sizeOf(out.type);
+  for (size_t i = 0; i < planes[0].values.size(); ++i) {
+    const auto number = static_cast<uint32_t>(planes[0].values[i]);
+    const uint64_t word = coding.kind == CodingKind::kWords ? uint64_t{coding.base} + number
+                                                            : number << 16 | static_cast<uint32_t>(planes[1].values[i]);
+    if (word > largestWord(out.type)) return false;
+    storeWord(&out.data[i * size], out.type, static_cast<uint32_t>(word));
+  }
+  return true;
+}
+
+void fromFractions(const Plane& in, const AttributeCoding& coding, Attribute& out) {
+  for (size_t i = 0; i < in.values.size(); ++i) {
+    const double numerator = static_cast<double>(int64_t{in.values[i]} + coding.base - kFractionZero);
+    storeFloat(&out.data[4 * i], static_cast<float>(numerator / coding.denominator));
+  }
+}
+
+bool inRange(const Plane& plane, Index wedge_count) {
+  return plane.values.size() == size_t{wedge_count} * plane.components &&
+         std::all_of(plane.values.begin(), plane.values.end(),
+                     [&](int32_t value) { return value >= 0 && value <= plane.max; });
+}
+
+}  // namespace
+
+std::vector<Plane> planesOf(const Attribute& attribute, const AttributeCoding& coding, size_t index) {
+  const int components = attribute.components;
+  switch (coding.kind) {
+    case CodingKind::kConstant: return {};
+    case CodingKind::kOctahedral:
+      return {plane(PlaneKind::kNormal, index, 2, 2 * octahedronCentre(coding.bits))};
+    case CodingKind::kOctahedralSigned: {
+      std::vector<Plane> planes{plane(PlaneKind::kDirection, index, 2, 2 * octahedronCentre(coding.bits))};
+      if (coding.signs == kSignsMixed) planes.push_back(plane(PlaneKind::kLabel, index, 1, 1));
+      return planes;
+    }
+    case CodingKind::kSplitWords:
+      return {plane(PlaneKind::kLabel, index, components, 0xFFFF), plane(PlaneKind::kLabel, index, components, 0xFFFF)};
+    default: return {plane(kindOf(attribute, coding, index), index, components, largest(coding.bits))};
+  }
+}
+
+void splitValues(const Attribute& attribute, const AttributeCoding& coding, std::span<Plane> planes) {
+  const size_t wedges = attribute.data.size() / attribute.stride();
+  for (Plane& plane : planes) plane.values.assign(wedges * plane.components, 0);
+  switch (coding.kind) {
+    case CodingKind::kConstant: return;
+    case CodingKind::kQuantised: return quantise(attribute, coding, planes[0]);
+    case CodingKind::kOctahedral:
+    case CodingKind::kOctahedralSigned: return toOctahedron(attribute, coding, planes);
+    case CodingKind::kWords:
+    case CodingKind::kSplitWords: return toWords(attribute, coding, planes);
+    case CodingKind::kFractions: return toFractions(attribute, coding, planes[0]);
+  }
+}
+
+bool joinValues(std::span<const Plane> planes, const AttributeCoding& coding, Index wedge_count, Attribute& attribute) {
+  for (const Plane& plane : planes) {
+    if (!inRange(plane, wedge_count)) return false;
+  }
+  attribute.data.resize(size_t{wedge_count} * attribute.stride());
+  switch (coding.kind) {
+    case CodingKind::kConstant:
+      for (size_t i = 0; i < attribute.data.size(); ++i) attribute.data[i] = coding.constant[i % attribute.stride()];
+      return true;
+    case CodingKind::kQuantised: return dequantise(planes[0], coding, attribute), true;
+    case CodingKind::kOctahedral:
+    case CodingKind::kOctahedralSigned: return fromOctahedron(planes, coding, attribute), true;
+    case CodingKind::kWords:
+    case CodingKind::kSplitWords: return fromWords(planes, coding, attribute);
+    case CodingKind::kFractions: return fromFractions(planes[0], coding, attribute), true;
+  }
+  return false;
+}
+
+}  // namespace tutte

@@ -1,0 +1,162 @@
+#include "gltf_ext/attributes.h"
+
+#include <algorithm>
+#include <new>
+
+#include "gltf_ext/attribute_coding.h"
+#include "gltf_ext/draco_planes.h"
+
+namespace tutte {
+namespace {
+
+constexpr uint8_t kDracoCoder = 0;
+constexpr uint32_t kMaxAttributes = 4096;
+constexpr int kMaxBits = 24;
+
+// The format byte: component type, components less one, normalized.
+constexpr ComponentType kTypes[] = {ComponentType::kInt8,   ComponentType::kUint8,  ComponentType::kInt16,
+                                    ComponentType::kUint16, ComponentType::kUint32, ComponentType::kFloat};
+constexpr uint8_t kTypeMask = 7;
+constexpr int kComponentShift = 3;
+constexpr uint8_t kNormalizedFlag = 1 << 5;
+
+struct Head {
+  std::vector<Attribute> attributes;  ///< without data
+  std::vector<AttributeCoding> codings;
+  std::vector<Plane> planes;          ///< of all attributes, without values
+
+  std::span<Plane> planesOf(size_t attribute) {
+    const auto [first, last] = std::ranges::equal_range(planes, attribute, {}, &Plane::attribute);
+    return {first, last};
+  }
+};
+
+Failure damaged(const char* what) { return {FailureKind::kInvalid, "", what}; }
+
+void addPlanes(Head& head) {
+  for (size_t i = 0; i < head.attributes.size(); ++i) {
+    for (Plane& plane : tutte::planesOf(head.attributes[i], head.codings[i], i)) head.planes.push_back(std::move(plane));
+  }
+}
+
+void writeAttribute(const Attribute& attribute, const AttributeCoding& coding, ByteWriter& out) {
+  writeName(parseName(attribute.name), out);
+  const auto type = std::ranges::find(kTypes, attribute.type) - std::begin(kTypes);
+  out.byte(static_cast<uint8_t>(type | (attribute.components - 1) << kComponentShift |
+                                (attribute.normalized ? kNormalizedFlag : 0)));
+  writeCoding(coding, attribute, out);
+}
+
+bool readAttribute(ByteReader& in, Head& head) {
+  AttributeName name;
+  if (!readName(in, name)) return false;
+  const uint8_t format = in.byte();
+  if ((format & kTypeMask) >= std::size(kTypes) || format >= 2 * kNormalizedFlag) return false;
+  Attribute attribute;
+  attribute.name = nameOf(name);
+  attribute.type = kTypes[format & kTypeMask];
+  attribute.components = static_cast<uint8_t>((format >> kComponentShift & 3) + 1);
+  attribute.normalized = (format & kNormalizedFlag) != 0;
+  auto coding = readCoding(in, attribute);
+  if (!coding) return false;
+  head.attributes.push_back(std::move(attribute));
+  head.codings.push_back(std::move(*coding));
+  return true;
+}
+
+Outcome<Head> readHead(ByteReader& in) {
+  if (in.byte() != kDracoCoder) return damaged("the attribute section has an unknown coder");
+  const uint32_t count = in.varint();
+  if (in.error() != Error::kNone || count > kMaxAttributes) return damaged("the attribute section's head is damaged");
+  Head head;
+  for (uint32_t i = 0; i < count; ++i) {
+    if (!readAttribute(in, head)) return damaged("an attribute's description is damaged");
+  }
+  addPlanes(head);
+  return head;
+}
+
+Outcome<Done> checkAttribute(const Attribute& attribute, Index wedge_count) {
+  const bool known = std::ranges::find(kTypes, attribute.type) != std::end(kTypes);
+  if (!known || attribute.components < 1 || attribute.components > 4) {
+    return Failure{FailureKind::kInvalid, attribute.name, "the attribute's type is none of glTF's"};
+  }
+  if (attribute.data.size() != size_t{wedge_count} * attribute.stride()) {
+    return Failure{FailureKind::kInvalid, attribute.name, "the attribute has not one value per vertex"};
+  }
+  if (attribute.name.size() > 1024) return Failure{FailureKind::kUnsupported, "", "an attribute name exceeds 1024 bytes"};
+  return Done{};
+}
+
+Outcome<Done> checkOptions(const PackOptions& options) {
+  for (const int bits : {options.position_bits, options.normal_bits, options.texcoord_bits, options.color_bits,
+                         options.generic_bits}) {
+    if (bits < 0 || bits > kMaxBits) return Failure{FailureKind::kUsage, "", "quantisation bits must be 0 to 24"};
+  }
+  if (options.normal_bits == 1) return Failure{FailureKind::kUsage, "", "normals need 2 bits or more (or 0)"};
+  return Done{};
+}
+
+Outcome<std::vector<uint8_t>> encode(const AttributeTopology& topology, std::span<const Attribute> attributes,
+                                     const PackOptions& options) {
+  Head head;
+  ByteWriter out;
+  out.byte(kDracoCoder);
+  out.varint(static_cast<uint32_t>(attributes.size()));
+  for (const Attribute& attribute : attributes) {
+    const size_t index = head.codings.size();
+    head.codings.push_back(chooseCoding(attribute, options));
+    writeAttribute(attribute, head.codings[index], out);
+    std::vector<Plane> planes = planesOf(attribute, head.codings[index], index);
+    splitValues(attribute, head.codings[index], planes);
+    std::ranges::move(planes, std::back_inserter(head.planes));
+  }
+  auto stream = encodePlanes(topology, head.planes);
+  if (!stream) return stream.error();
+  out.append(*stream);
+  return std::move(out).take();
+}
+
+}  // namespace
+
+Outcome<std::vector<uint8_t>> encodeAttributes(const AttributeTopology& topology,
+                                               std::span<const Attribute> attributes, const PackOptions& options) {
+  if (const auto checked = checkOptions(options); !checked) return checked.error();
+  if (attributes.size() > kMaxAttributes) return Failure{FailureKind::kUnsupported, "", "more than 4096 attributes"};
+  for (const Attribute& attribute : attributes) {
+    if (const auto checked = checkAttribute(attribute, topology.wedge_count); !checked) return checked.error();
+  }
+  try {
+    return encode(topology, attributes, options);
+  } catch (const std::bad_alloc&) {
+    return Failure{FailureKind::kUnsupported, "", "out of memory while coding attributes"};
+  }
+}
+
+Outcome<std::vector<Attribute>> describeAttributes(std::span<const uint8_t> bytes) {
+  ByteReader in(bytes);
+  auto head = readHead(in);
+  if (!head) return head.error();
+  return std::move(head->attributes);
+}
+
+Outcome<std::vector<Attribute>> decodeAttributes(const AttributeTopology& topology, std::span<const uint8_t> bytes) {
+  ByteReader in(bytes);
+  auto head = readHead(in);
+  if (!head) return head.error();
+  if (!decodePlanes(topology, in.take(in.remaining()), head->planes)) return damaged("the attribute stream is damaged");
+  try {
+    for (size_t i = 0; i < head->attributes.size(); ++i) {
+      const std::span<Plane> planes = head->planesOf(i);
+      if (!joinValues(planes, head->codings[i], topology.wedge_count, head->attributes[i])) {
+        return damaged("an attribute has a value outside its type");
+      }
+      for (Plane& plane : planes) plane.values = {};
+    }
+  } catch (const std::bad_alloc&) {
+    return Failure{FailureKind::kUnsupported, "", "out of memory while decoding attributes"};
+  }
+  return std::move(head->attributes);
+}
+
+}  // namespace tutte
