@@ -95,6 +95,7 @@ class Walk {
     Index current = kNone;
     while (question_.missing > 0) {
       const Index valence = script_.vertex(question_);
+      if (script_.overrun()) return Error::kTruncated;
       if (valence == 0) return Error::kMalformed;
       if (const Error error = addVertex(valence, current); error != Error::kNone) return error;
     }
