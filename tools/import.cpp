@@ -1,0 +1,75 @@
+#include "tools/import.h"
+
+#include <fstream>
+#include <string_view>
+
+#include "tools/text.h"
+
+namespace tutte {
+namespace {
+
+/// The first word that is no comment, to tell formats whose files have no fixed first bytes.
+std::string_view firstWord(std::span<const uint8_t> bytes) {
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  for (;;) {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    if (!text.starts_with('#')) return text.substr(0, text.find_first_of(" \t\r\n"));
+    text.remove_prefix(std::min(text.find('\n'), text.size()));
+  }
+}
+
+Outcome<Imported> readAs(FileFormat format, std::span<const uint8_t> bytes, const std::filesystem::path& path) {
+  switch (format) {
+    case FileFormat::kObj: return importObj(bytes, path.parent_path());
+    case FileFormat::kPly: return importPly(bytes);
+    case FileFormat::kOff: return importOff(bytes);
+    default: return importAssimp(path);
+  }
+}
+
+}  // namespace
+
+FileFormat formatOf(const std::filesystem::path& path, std::span<const uint8_t> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string extension = lowerCase(path.extension().string());
+  if (text.starts_with("glTF") || extension == ".glb" || extension == ".gltf") return FileFormat::kGltf;
+  if (text.starts_with("ply\n") || text.starts_with("ply\r") || extension == ".ply") return FileFormat::kPly;
+  if (extension == ".obj" || extension == ".smf") return FileFormat::kObj;
+  if (extension == ".off") {
+    const std::string_view word = firstWord(bytes.first(std::min<size_t>(bytes.size(), 1 << 16)));
+    return word == "v" ? FileFormat::kObj : FileFormat::kOff;  // found in the wild
+  }
+  return FileFormat::kOther;
+}
+
+Outcome<Bytes> readFile(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    return Failure{FailureKind::kIo, path.string(), "this is a folder; name a file"};
+  }
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = file ? file.tellg() : std::ifstream::pos_type(-1);
+  if (!file || size < 0) return Failure{FailureKind::kIo, path.string(), "cannot open it; check the name and its rights"};
+  Bytes bytes(static_cast<size_t>(size));
+  file.seekg(0);
+  file.read(reinterpret_cast<char*>(bytes.data()), size);
+  if (!file) return Failure{FailureKind::kIo, path.string(), "cannot read it to the end; check the disk"};
+  return bytes;
+}
+
+Outcome<Imported> importScene(const std::filesystem::path& path) {
+  const Outcome<Bytes> bytes = readFile(path);
+  if (!bytes) return bytes.error();
+  Outcome<Imported> imported = readAs(formatOf(path, *bytes), *bytes, path);
+  if (!imported) {
+    Failure failure = imported.error();
+    failure.where = path.string() + (failure.where.empty() ? "" : ": " + failure.where);
+    return failure;
+  }
+  for (SceneMesh& mesh : imported->scene.meshes) {
+    if (mesh.name.empty()) mesh.name = path.stem().string();
+  }
+  return imported;
+}
+
+}  // namespace tutte
