@@ -147,19 +147,6 @@ AttributeCoding tangentCoding(const Attribute& attribute, int bits) {
   return coding;
 }
 
-int bitsFor(const AttributeName& name, const PackOptions& options) {
-  switch (name.semantic) {
-    case Semantic::kPosition: return options.position_bits;
-    case Semantic::kNormal:
-    case Semantic::kTangent: return name.is_target ? options.generic_bits : options.normal_bits;
-    case Semantic::kTexcoord: return name.is_target ? options.generic_bits : options.texcoord_bits;
-    case Semantic::kColor: return name.is_target ? options.generic_bits : options.color_bits;
-    case Semantic::kJoints:
-    case Semantic::kWeights: return 0;
-    default: return options.generic_bits;
-  }
-}
-
 AttributeCoding lossyCoding(const Attribute& attribute, const AttributeName& name, int bits) {
   if (!name.is_target && name.semantic == Semantic::kNormal) return normalCoding(attribute, bits);
   if (!name.is_target && name.semantic == Semantic::kTangent) return tangentCoding(attribute, bits);
@@ -207,10 +194,23 @@ void readFields(ByteReader& in, const Attribute& attribute, AttributeCoding& cod
 
 }  // namespace
 
+int quantisationBits(const AttributeName& name, const PackOptions& options) {
+  switch (name.semantic) {
+    case Semantic::kPosition: return options.position_bits;
+    case Semantic::kNormal:
+    case Semantic::kTangent: return name.is_target ? options.generic_bits : options.normal_bits;
+    case Semantic::kTexcoord: return name.is_target ? options.generic_bits : options.texcoord_bits;
+    case Semantic::kColor: return name.is_target ? options.generic_bits : options.color_bits;
+    case Semantic::kJoints:
+    case Semantic::kWeights: return 0;
+    default: return options.generic_bits;
+  }
+}
+
 AttributeCoding chooseCoding(const Attribute& attribute, const PackOptions& options) {
   if (isConstant(attribute)) return constantCoding(attribute);
   const AttributeName name = parseName(attribute.name);
-  const int bits = bitsFor(name, options);
+  const int bits = quantisationBits(name, options);
   const bool lossy = attribute.type == ComponentType::kFloat && bits > 0;
   return lossy ? lossyCoding(attribute, name, bits) : exactCoding(attribute);
 }

@@ -61,6 +61,9 @@ struct Plane {
   bool octahedral() const { return kind == PlaneKind::kNormal || kind == PlaneKind::kDirection; }
 };
 
+/// The bits that the options give to a float attribute; 0: none, it is kept without loss.
+int quantisationBits(const AttributeName& name, const PackOptions& options);
+
 /// The coding that the options ask for:
 /// - one value everywhere: kConstant;
 /// - integers, JOINTS, WEIGHTS, attributes with 0 bits, and those that are not finite: without loss, by words or, if

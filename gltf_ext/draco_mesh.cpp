@@ -68,6 +68,7 @@ class TableBuilder {
     const size_t vertices = mesh_.umbrella_count + 3 * loose_triangles;
     if (3 * triangles > kMaxCorners || vertices > kMaxCorners) return false;
     if (!out_.table.Reset(static_cast<int>(triangles), static_cast<int>(vertices))) return false;
+    out_.table.SetNumVertices(static_cast<int>(vertices));
     out_.wedges.reserve(3 * triangles);
     out_.edge_corners.assign(mesh_.umbrellas.size(), kNone);
     addFans();
