@@ -42,23 +42,34 @@ class GroupScript {
 
  private:
   Guess guessFor(Index face, Index first_corner, const std::vector<Index>& groups) {
+    const Index end = first_corner + mesh_.face_degrees[face];
     Guess guess;
-    Index around[2] = {kNone, kNone};
-    for (Index corner = first_corner; corner < first_corner + mesh_.face_degrees[face]; ++corner) {
-      const Index twin = mesh_.twins[corner];
-      if (twin == kNone || face_of_[twin] >= face) continue;
-      const Index group = groups[face_of_[twin]];
-      if (around[0] == kNone) around[0] = group;
-      if (group == around[0])
-        guess.support += guess.support < 3;
-      else
-        around[1] = group;
+    guess.first = last_;
+    Index latest = kNone;
+    for (Index corner = first_corner; corner < end; ++corner) {
+      const Index neighbour = codedNeighbour(face, corner);
+      if (neighbour == kNone || (latest != kNone && neighbour < latest)) continue;
+      latest = neighbour;
+      guess.first = groups[neighbour];
     }
-    guess.first = around[0] != kNone ? around[0] : last_;
-    guess.torn = around[1] != kNone;
-    guess.second = guess.torn ? around[1] : last_ != guess.first ? last_ : last_but_one_;
+    Index other = kNone;
+    for (Index corner = first_corner; corner < end; ++corner) {
+      const Index neighbour = codedNeighbour(face, corner);
+      if (neighbour == kNone) continue;
+      if (groups[neighbour] != guess.first)
+        other = groups[neighbour];
+      else if (guess.support < 3)
+        ++guess.support;
+    }
+    guess.torn = other != kNone;
+    guess.second = guess.torn ? other : last_ != guess.first ? last_ : last_but_one_;
     if (guess.second == guess.first) guess.second = guess.first == 0 ? 1 : 0;
     return guess;
+  }
+
+  Index codedNeighbour(Index face, Index corner) const {
+    const Index twin = mesh_.twins[corner];
+    return twin == kNone || face_of_[twin] >= face ? kNone : face_of_[twin];
   }
 
   Index one(Index group, const Guess& guess) {

@@ -205,10 +205,9 @@ class Decoder {
   }
 
   Error polygon(Index face, const Polygon& polygon) {
-    const bool simple = polygon.holes.empty();
-    if (simple && polygon.exterior.degree - 2 > left_) return Error::kLimitExceeded;
     script_.polygon(face, polygon, shape_);
     if (shape_.kind == Kind::kList) return list(face, polygon);
+    if (polygon.exterior.degree - 2 > left_) return Error::kLimitExceeded;
     left_ -= polygon.exterior.degree - 2;
     if (shape_.kind == Kind::kFan) output_.fan(face, polygon.exterior, shape_.apex);
     if (shape_.kind == Kind::kTree) {

@@ -1,6 +1,7 @@
 #include "tests/codec/overlays.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 
@@ -126,10 +127,8 @@ std::vector<std::vector<std::array<Index, 3>>> normalised(const Triangulation& t
   for (const Index count : triangulation.counts) {
     auto& list = result.emplace_back();
     for (Index i = 0; i < count; ++i, next += 3) {
-      std::array<Index, 3> t{};
-      std::copy_n(triangulation.corners.begin() + static_cast<std::ptrdiff_t>(next), 3, t.begin());
-      std::ranges::rotate(t, std::ranges::min_element(t));
-      list.push_back(t);
+      const Index* t = &triangulation.corners[next];
+      list.push_back(std::min({std::array{t[0], t[1], t[2]}, {t[1], t[2], t[0]}, {t[2], t[0], t[1]}}));
     }
     std::ranges::sort(list);
   }

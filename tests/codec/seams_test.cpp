@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "codec/wedges.h"
 #include "tests/codec/overlays.h"
 
