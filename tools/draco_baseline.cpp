@@ -128,7 +128,8 @@ class MeshBuilder {
 
   void markAddedEdges() {
     draco::PointAttribute& marks = newAttribute(draco::GeometryAttribute::GENERIC, 1, draco::DT_UINT8, false, 2);
-    for (const uint8_t value : {uint8_t{0}, uint8_t{1}}) marks.SetAttributeValue(draco::AttributeValueIndex(value), &value);
+    for (const uint8_t value : {uint8_t{0}, uint8_t{1}})
+      marks.SetAttributeValue(draco::AttributeValueIndex(value), &value);
     for (uint32_t f = 0; f < triangles_.corners.size(); ++f) {
       for (uint32_t i = 0; i < 3; ++i) {
         const uint32_t mark = i == 1 && triangles_.added_edge[f] ? 1 : 0;
@@ -239,8 +240,13 @@ Outcome<DracoFigures> runDraco(const PolygonMesh& mesh, const PackOptions& optio
     const Triangles triangles = keep_polygons ? fans(mesh.polygons) : trianglesOf(mesh);
     if (triangles.corners.empty()) return refused("the mesh has no triangles");
     MeshBuilder builder(mesh, triangles);
-    if (keep_polygons) builder.markAddedEdges();
-    return measure(std::move(builder).finish(), encoderOptions(mesh, options, run.compression_level), run.repetitions);
+    draco::EncoderOptions encoder_options = encoderOptions(mesh, options, run.compression_level);
+    if (keep_polygons) {
+      builder.markAddedEdges();
+      const int marks = static_cast<int>(mesh.attributes.size());
+      encoder_options.SetAttributeInt(marks, "prediction_scheme", draco::PREDICTION_NONE);  // as draco_encoder does
+    }
+    return measure(std::move(builder).finish(), encoder_options, run.repetitions);
   } catch (const std::exception& error) {
     return refused(error.what());
   }
