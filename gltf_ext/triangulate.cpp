@@ -132,8 +132,7 @@ class FaceTriangulator {
   void addFan(Index start, Index degree, Index apex) {
     auto& corners = mesh_.triangulation.corners;
     for (Index i = 1; i + 1 < degree; ++i) {
-      corners.insert(corners.end(),
-                     {start + apex, start + (apex + i) % degree, start + (apex + i + 1) % degree});
+      corners.insert(corners.end(), {start + apex, start + (apex + i) % degree, start + (apex + i + 1) % degree});
     }
   }
 

@@ -1,8 +1,8 @@
 #include "tools/import.h"
 
-#include <fstream>
 #include <string_view>
 
+#include "gltf_ext/files.h"
 #include "tools/text.h"
 
 namespace tutte {
@@ -40,21 +40,6 @@ FileFormat formatOf(const std::filesystem::path& path, std::span<const uint8_t> 
     return word == "v" ? FileFormat::kObj : FileFormat::kOff;  // found in the wild
   }
   return FileFormat::kOther;
-}
-
-Outcome<Bytes> readFile(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    return Failure{FailureKind::kIo, path.string(), "this is a folder; name a file"};
-  }
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const auto size = file ? file.tellg() : std::ifstream::pos_type(-1);
-  if (!file || size < 0) return Failure{FailureKind::kIo, path.string(), "cannot open it; check the name and its rights"};
-  Bytes bytes(static_cast<size_t>(size));
-  file.seekg(0);
-  file.read(reinterpret_cast<char*>(bytes.data()), size);
-  if (!file) return Failure{FailureKind::kIo, path.string(), "cannot read it to the end; check the disk"};
-  return bytes;
 }
 
 Outcome<Imported> importScene(const std::filesystem::path& path) {

@@ -10,8 +10,8 @@
 namespace tutte {
 
 enum class FileFormat {
-  kGltf,   ///< .glb, .gltf
-  kObj,    ///< .obj, .smf
+  kGltf,  ///< .glb, .gltf
+  kObj,   ///< .obj, .smf
   kPly,
   kOff,
   kOther,  ///< whatever Assimp knows
@@ -25,13 +25,10 @@ struct Imported {
 /// Tells the format by the first bytes where they are clear, else by the extension of the name.
 FileFormat formatOf(const std::filesystem::path& path, std::span<const uint8_t> bytes);
 
-/// Reads any supported file but glTF. Polygons and the file's vertices are kept; nothing is triangulated or merged, except that
-/// formats without shared vertices (STL, FBX, ...) are welded where all values are equal to the bit.
+/// Reads any supported file but glTF. Polygons and the file's vertices are kept; nothing is triangulated or merged,
+/// except that formats without shared vertices (STL, FBX, ...) are welded where positions are equal to the bit.
 /// Errors name the file and the place in it.
 Outcome<Imported> importScene(const std::filesystem::path& path);
-
-/// All bytes of a file. Errors: kIo.
-Outcome<Bytes> readFile(const std::filesystem::path& path);
 
 // --- One reader per format; `bytes` may be anything. Failures give the place, but not the file's name.
 

@@ -24,8 +24,8 @@ class Materials : public tinyobj::MaterialReader {
  public:
   Materials(const ObjLines& lines, fs::path folder) : lines_(lines), folder_(std::move(folder)) {}
 
-  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
-                  std::map<std::string, int>* map, std::string* warnings, std::string* errors) override {
+  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* map,
+                  std::string* warnings, std::string* errors) override {
     std::string_view line = trimmed(lines_.line());
     nextWord(line);
     if (read(std::string(trimmed(line)), materials, map, warnings, errors)) return true;  // a name with spaces

@@ -21,7 +21,6 @@ struct OffKind {
   bool binary = false;
 };
 
-
 /// The mesh so far.
 struct OffMesh {
   IndexedMesh mesh;
@@ -36,8 +35,9 @@ struct OffMesh {
     if (color_components) addColors();
     if (with_texcoords) mesh.vertex_attributes.push_back(floatAttribute("TEXCOORD_0", 2, texcoords));
     if (ignored) {
-      result.warnings.push_back(std::to_string(ignored) + " vertices and faces have further values (colours of faces, "
-                                                          "for instance), which are not carried over");
+      result.warnings.push_back(std::to_string(ignored) +
+                                " vertices and faces have further values (colours of faces, "
+                                "for instance), which are not carried over");
     }
     SceneMesh scene_mesh;
     scene_mesh.mesh = buildMesh(std::move(mesh), result.warnings);
@@ -111,7 +111,8 @@ class OffText {
   T word(const char* what) {
     const std::string_view found = word();
     const auto value = parseInteger<T>(found);
-    if (!value) fail(std::string(what) + " is missing" + (found.empty() ? ": the file ends too early" : "; correct it"));
+    if (!value)
+      fail(std::string(what) + " is missing" + (found.empty() ? ": the file ends too early" : "; correct it"));
     return value.value_or(0);
   }
 
@@ -181,8 +182,9 @@ class OffBinary {
         if (read()) return out_.finish(kind_.normals, kind_.texcoords);
       }
     }
-    return Failure{FailureKind::kInvalid, "after the keyword",
-                   "the counts and the faces fit together in neither byte order; the file is damaged, get it once more"};
+    return Failure{
+        FailureKind::kInvalid, "after the keyword",
+        "the counts and the faces fit together in neither byte order; the file is damaged, get it once more"};
   }
 
  private:

@@ -78,15 +78,29 @@ struct Target {
 };
 
 Target targetOf(const std::string& name) {
-  static const std::map<std::string, Target> targets = {
-      {"x", {"POSITION", 0}},      {"y", {"POSITION", 1}},           {"z", {"POSITION", 2}},
-      {"nx", {"NORMAL", 0}},       {"ny", {"NORMAL", 1}},            {"nz", {"NORMAL", 2}},
-      {"s", {"TEXCOORD_0", 0}},    {"t", {"TEXCOORD_0", 1}},         {"u", {"TEXCOORD_0", 0}},
-      {"v", {"TEXCOORD_0", 1}},    {"texture_u", {"TEXCOORD_0", 0}}, {"texture_v", {"TEXCOORD_0", 1}},
-      {"red", {"COLOR_0", 0}},     {"green", {"COLOR_0", 1}},        {"blue", {"COLOR_0", 2}},
-      {"alpha", {"COLOR_0", 3}},   {"r", {"COLOR_0", 0}},            {"g", {"COLOR_0", 1}},
-      {"b", {"COLOR_0", 2}},       {"a", {"COLOR_0", 3}},            {"diffuse_red", {"COLOR_0", 0}},
-      {"diffuse_green", {"COLOR_0", 1}}, {"diffuse_blue", {"COLOR_0", 2}}};
+  static const std::map<std::string, Target> targets = {{"x", {"POSITION", 0}},
+                                                        {"y", {"POSITION", 1}},
+                                                        {"z", {"POSITION", 2}},
+                                                        {"nx", {"NORMAL", 0}},
+                                                        {"ny", {"NORMAL", 1}},
+                                                        {"nz", {"NORMAL", 2}},
+                                                        {"s", {"TEXCOORD_0", 0}},
+                                                        {"t", {"TEXCOORD_0", 1}},
+                                                        {"u", {"TEXCOORD_0", 0}},
+                                                        {"v", {"TEXCOORD_0", 1}},
+                                                        {"texture_u", {"TEXCOORD_0", 0}},
+                                                        {"texture_v", {"TEXCOORD_0", 1}},
+                                                        {"red", {"COLOR_0", 0}},
+                                                        {"green", {"COLOR_0", 1}},
+                                                        {"blue", {"COLOR_0", 2}},
+                                                        {"alpha", {"COLOR_0", 3}},
+                                                        {"r", {"COLOR_0", 0}},
+                                                        {"g", {"COLOR_0", 1}},
+                                                        {"b", {"COLOR_0", 2}},
+                                                        {"a", {"COLOR_0", 3}},
+                                                        {"diffuse_red", {"COLOR_0", 0}},
+                                                        {"diffuse_green", {"COLOR_0", 1}},
+                                                        {"diffuse_blue", {"COLOR_0", 2}}};
   const auto found = targets.find(name);
   return found == targets.end() ? Target{} : found->second;
 }
@@ -100,8 +114,10 @@ class PlyReader {
     for (const PlyElement& element : header_.elements) {
       if (element.properties.empty()) continue;
       if (element.count > bytes_left_) return fail(element, 0, "the file is too short for all of them");
-      if (element.name == "vertex") readVertices(element);
-      else readOthers(element);
+      if (element.name == "vertex")
+        readVertices(element);
+      else
+        readOthers(element);
       if (failure_) return *failure_;
     }
     return finish();
@@ -117,8 +133,9 @@ class PlyReader {
     const auto next = values_.next(type);
     if (next && std::abs(*next) <= std::numeric_limits<float>::max()) return *next;
     if (!failure_) {
-      fail(element, number, next || !values_.atEnd() ? "there is no finite number where one belongs; correct it"
-                                                     : "the file ends too early; get it once more");
+      fail(element, number,
+           next || !values_.atEnd() ? "there is no finite number where one belongs; correct it"
+                                    : "the file ends too early; get it once more");
     }
     return 0;
   }
@@ -134,8 +151,10 @@ class PlyReader {
     for (uint64_t vertex = 0; vertex < element.count && !failure_; ++vertex) {
       for (size_t i = 0; i < element.properties.size() && !failure_; ++i) {
         const PlyProperty& property = element.properties[i];
-        if (property.is_list) readList(element, vertex, property);
-        else columns_[i].push_back(static_cast<float>(value(element, vertex, property.type)));
+        if (property.is_list)
+          readList(element, vertex, property);
+        else
+          columns_[i].push_back(static_cast<float>(value(element, vertex, property.type)));
       }
     }
     mesh_.vertex_count = static_cast<Index>(element.count);
@@ -263,7 +282,8 @@ class PlyReader {
 
   static std::string customName(const std::string& name) {
     std::string result = "_";
-    for (char c : name) result += static_cast<char>(std::isalnum(static_cast<unsigned char>(c)) ? std::toupper(c) : '_');
+    for (char c : name)
+      result += static_cast<char>(std::isalnum(static_cast<unsigned char>(c)) ? std::toupper(c) : '_');
     return result;
   }
 

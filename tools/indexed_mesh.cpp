@@ -83,7 +83,9 @@ Attribute gather(const Attribute& values, const std::vector<Index>& sources) {
 
 using Vector = std::array<double, 3>;
 
-Vector vectorAt(const std::vector<float>& values, size_t i) { return {values[3 * i], values[3 * i + 1], values[3 * i + 2]}; }
+Vector vectorAt(const std::vector<float>& values, size_t i) {
+  return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+}
 
 /// Per wedge the sum of the normals of its faces, not normalised.
 std::vector<Vector> faceNormalSums(const PolygonMesh& mesh) {
@@ -204,8 +206,10 @@ PolygonMesh weld(PolygonMesh mesh, std::vector<std::string>& warnings) {
       numbers[order[i]] = first ? order[i] : numbers[order[i - 1]];
     }
     for (Index i = 0; i < mesh.wedge_count; ++i) {  // in order of first appearance
-      if (numbers[i] == i) firsts.push_back(i), numbers[i] = static_cast<Index>(firsts.size() - 1);
-      else numbers[i] = numbers[numbers[i]];
+      if (numbers[i] == i)
+        firsts.push_back(i), numbers[i] = static_cast<Index>(firsts.size() - 1);
+      else
+        numbers[i] = numbers[numbers[i]];
     }
     return numbers;
   };

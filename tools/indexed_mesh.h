@@ -13,13 +13,13 @@ struct IndexedMesh {
   /// Values with indices of their own.
   struct CornerAttribute {
     Attribute values;
-    std::vector<Index> indices;          ///< per corner; kNone where the file gives no value
+    std::vector<Index> indices;  ///< per corner; kNone where the file gives no value
   };
 
   Index vertex_count = 0;
   std::vector<Index> face_degrees;
-  std::vector<Index> corners;            ///< below vertex_count
-  std::vector<Index> groups;             ///< per face; empty: all 0
+  std::vector<Index> corners;  ///< below vertex_count
+  std::vector<Index> groups;   ///< per face; empty: all 0
   Index group_count = 1;
   std::vector<Attribute> vertex_attributes;
   std::vector<CornerAttribute> corner_attributes;

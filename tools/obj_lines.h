@@ -13,18 +13,17 @@ namespace tutte {
 /// which. Lines that end in a backslash are joined; comments behind vertices and faces are cut off.
 class ObjLines : public std::streambuf {
  public:
-  explicit ObjLines(std::span<const uint8_t> bytes)
-      : rest_(reinterpret_cast<const char*>(bytes.data()), bytes.size()) {
+  explicit ObjLines(std::span<const uint8_t> bytes) : rest_(reinterpret_cast<const char*>(bytes.data()), bytes.size()) {
     if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
   }
 
-  size_t number() const { return number_; }            ///< of the line, from 1
-  std::string_view line() const { return statement_; } ///< without its end
-  void stop() { rest_ = {}; }                          ///< ends the stream behind this line
+  size_t number() const { return number_; }             ///< of the line, from 1
+  std::string_view line() const { return statement_; }  ///< without its end
+  void stop() { rest_ = {}; }                           ///< ends the stream behind this line
 
-  size_t empty_faces = 0;      ///< first line with an `f` that names no vertex, or 0
-  size_t points_and_lines = 0; ///< lines with other geometry than faces
-  size_t groups = 0;           ///< lines that name groups or objects
+  size_t empty_faces = 0;       ///< first line with an `f` that names no vertex, or 0
+  size_t points_and_lines = 0;  ///< lines with other geometry than faces
+  size_t groups = 0;            ///< lines that name groups or objects
 
  protected:
   int_type underflow() override {

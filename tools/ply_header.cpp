@@ -80,10 +80,14 @@ class HeaderReader {
 
   bool takeFormat(std::string_view line) {
     const std::string_view format = nextWord(line);
-    if (format == "ascii") header_.format = PlyFormat::kText;
-    else if (format == "binary_little_endian") header_.format = PlyFormat::kLittleEndian;
-    else if (format == "binary_big_endian") header_.format = PlyFormat::kBigEndian;
-    else return false;
+    if (format == "ascii")
+      header_.format = PlyFormat::kText;
+    else if (format == "binary_little_endian")
+      header_.format = PlyFormat::kLittleEndian;
+    else if (format == "binary_big_endian")
+      header_.format = PlyFormat::kBigEndian;
+    else
+      return false;
     return nextWord(line) == "1.0";
   }
 

@@ -33,8 +33,8 @@ enum class PlyFormat { kText, kLittleEndian, kBigEndian };
 struct PlyHeader {
   PlyFormat format = PlyFormat::kText;
   std::vector<PlyElement> elements;
-  size_t size = 0;                       ///< where the values begin
-  size_t lines = 0;                      ///< of the header
+  size_t size = 0;   ///< where the values begin
+  size_t lines = 0;  ///< of the header
 };
 
 /// `bytes` may be anything. Failures name the line.

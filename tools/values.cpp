@@ -10,7 +10,7 @@ namespace {
 template <class T>
 std::vector<float> convert(const Attribute& attribute) {
   std::vector<T> values(attribute.data.size() / sizeof(T));
-  std::memcpy(values.data(), attribute.data.data(), values.size() * sizeof(T));
+  if (!values.empty()) std::memcpy(values.data(), attribute.data.data(), values.size() * sizeof(T));
   const double scale = attribute.normalized ? 1.0 / static_cast<double>(std::numeric_limits<T>::max()) : 1.0;
   std::vector<float> floats(values.size());
   std::transform(values.begin(), values.end(), floats.begin(), [&](T value) {
@@ -30,8 +30,8 @@ const Attribute* findAttribute(const PolygonMesh& mesh, std::string_view name) {
 
 Attribute floatAttribute(std::string name, uint8_t components, std::span<const float> values) {
   Attribute attribute{.name = std::move(name), .components = components, .type = ComponentType::kFloat, .data = {}};
-  attribute.data.resize(values.size_bytes());
-  std::memcpy(attribute.data.data(), values.data(), values.size_bytes());
+  const auto* bytes = reinterpret_cast<const uint8_t*>(values.data());
+  attribute.data.assign(bytes, bytes + values.size_bytes());
   return attribute;
 }
 
@@ -50,11 +50,9 @@ std::vector<float> floatsOf(const Attribute& attribute) {
     case ComponentType::kInt16: return convert<int16_t>(attribute);
     case ComponentType::kUint16: return convert<uint16_t>(attribute);
     case ComponentType::kUint32: return convert<uint32_t>(attribute);
-    case ComponentType::kFloat: break;
+    case ComponentType::kFloat: return convert<float>(attribute);
   }
-  std::vector<float> floats(attribute.data.size() / sizeof(float));
-  std::memcpy(floats.data(), attribute.data.data(), floats.size() * sizeof(float));
-  return floats;
+  return {};
 }
 
 }  // namespace tutte

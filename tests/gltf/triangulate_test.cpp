@@ -192,7 +192,7 @@ TEST(Triangulate, HolesInAConcaveRingAtRandomPlaces) {
 
 TEST(Triangulate, HolesThatTouchTheRingAndEachOther) {
   const Ring square{{0, 0}, {8, 0}, {8, 8}, {0, 8}};
-  expectCovered({square, {{0, 0}, {1, 3}, {3, 1}}});                                   // at a corner
+  expectCovered({square, {{0, 0}, {1, 3}, {3, 1}}});                                    // at a corner
   expectCovered({square, {{2, 2}, {2, 4}, {4, 4}, {4, 2}}, {{4, 4}, {4, 6}, {6, 4}}});  // at each other's corner
   expectCovered({square, {{8, 4}, {6, 3}, {6, 5}}});                                    // on an edge
 }
