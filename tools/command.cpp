@@ -1,0 +1,95 @@
+#include "tools/command.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+#include "gltf_ext/extension.h"
+#include "gltf_ext/files.h"
+#include "tools/import.h"
+#include "tools/text.h"
+
+namespace tutte {
+
+void addQuantization(CLI::App& command, PackOptions& options) {
+  const auto add = [&](const char* name, int& bits, const char* what) {
+    command.add_option(name, bits, std::string("bits per component of ") + what + "; 0 keeps them exactly")
+        ->check(CLI::Range(0, 24))
+        ->capture_default_str()
+        ->group("Quantisation");
+  };
+  add("--qp", options.position_bits, "positions");
+  add("--qn", options.normal_bits, "normals and tangents");
+  add("--qt", options.texcoord_bits, "texture coordinates");
+  add("--qc", options.color_bits, "colours");
+  add("--qg", options.generic_bits, "other attributes");
+}
+
+void addAttributes(CLI::App& command, std::vector<std::string>& names) {
+  command.add_option("--attributes", names, "keep only these, such as POSITION,NORMAL (POSITION always stays)")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+}
+
+void addExamples(CLI::App& command, const std::string& examples) { command.footer("Examples:\n" + examples); }
+
+Failure inFile(Failure failure, const std::filesystem::path& path) {
+  if (failure.where.starts_with(path.string())) return failure;
+  failure.where = path.string() + (failure.where.empty() ? "" : ": " + failure.where);
+  return failure;
+}
+
+void printFailure(const Failure& failure) {
+  const std::string where = failure.where.empty() ? "" : failure.where + ": ";
+  std::fprintf(stderr, "tutte: %s%s\n", where.c_str(), failure.what.c_str());
+}
+
+void printWarning(const std::filesystem::path& path, const std::string& warning) {
+  std::fprintf(stderr, "tutte: %s: warning: %s\n", path.c_str(), warning.c_str());
+}
+
+void printWarnings(const std::filesystem::path& path, const std::vector<Failure>& warnings) {
+  for (const Failure& warning : warnings) {
+    printWarning(path, (warning.where.empty() ? "" : warning.where + ": ") + warning.what);
+  }
+}
+
+Outcome<LoadedScene> loadScene(const std::filesystem::path& path) {
+  const Outcome<Bytes> bytes = readFile(path);
+  if (!bytes) return inFile(bytes.error(), path);
+  if (const FileFormat format = formatOf(path, *bytes); format != FileFormat::kGltf) {
+    Outcome<Imported> imported = importScene(path);
+    if (!imported) return inFile(imported.error(), path);
+    for (const std::string& warning : imported->warnings) printWarning(path, warning);
+    return LoadedScene{std::move(imported->scene), format != FileFormat::kOther};
+  }
+  const Outcome<Asset> asset = loadAsset(path);
+  if (!asset) return inFile(asset.error(), path);
+  Outcome<Scene> scene = assetToScene(*asset);
+  if (!scene) return inFile(scene.error(), path);
+  const auto used = asset->json.find("extensionsUsed");
+  const bool ours = used != asset->json.end() && used->is_array() &&
+                    std::find(used->begin(), used->end(), kExtensionName) != used->end();
+  return LoadedScene{*std::move(scene), ours};
+}
+
+bool isGltfName(const std::filesystem::path& path) {
+  const std::string extension = lowerCase(path.extension().string());
+  return extension == ".glb" || extension == ".gltf";
+}
+
+std::string withCommas(uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (size_t place = digits.size(); place > 3;) digits.insert(place -= 3, ",");
+  return digits;
+}
+
+std::string formatted(const char* format, ...) {
+  char buffer[512];
+  va_list arguments;
+  va_start(arguments, format);
+  const int length = std::vsnprintf(buffer, sizeof buffer, format, arguments);
+  va_end(arguments);
+  return {buffer, std::min<size_t>(length < 0 ? 0 : static_cast<size_t>(length), sizeof buffer - 1)};
+}
+
+}  // namespace tutte
