@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "codec/decode.h"
 #include "codec/face_groups.h"
 #include "codec/payload.h"
@@ -49,10 +51,16 @@ class Unpacker {
     return Done{};
   }
 
+  /// While it decodes, the walk may know a vertex as several umbrellas, and closes boundaries with dummy faces.
+  static Limits walkLimits(const PayloadCounts& counts) {
+    const auto sum = [](uint64_t a, uint64_t b) { return static_cast<Index>(std::min<uint64_t>(a + b, kNone - 1)); };
+    return {sum(counts.vertices, counts.corners), sum(counts.faces, counts.corners),
+            sum(counts.corners, counts.corners)};
+  }
+
   Outcome<Done> connectivity() {
     const PayloadCounts& counts = payload_.counts;
-    const Limits claimed{counts.vertices, counts.faces, counts.corners};
-    Result<Connectivity> connectivity = decode(payload_[Section::kConnectivity], claimed);
+    Result<Connectivity> connectivity = decode(payload_[Section::kConnectivity], walkLimits(counts));
     if (!connectivity) return failure(connectivity.error(), Section::kConnectivity);
     connectivity_ = *std::move(connectivity);
     mesh_.polygons = polygonsOf(connectivity_, &coded_of_decoded_);
