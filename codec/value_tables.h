@@ -1,0 +1,91 @@
+#pragma once
+// The constants of the value coder. All are made by integer recurrences, so that every compiler makes the same ones.
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace tutte::values {
+
+/// Predictions carry four binary digits behind the point.
+inline constexpr int kFraction = 4;
+
+/// The logistic curve in a table: kSquash[x + 2048] = 65536 / (1 + e^(-x / 256)), within [1, 65535].
+inline constexpr int32_t kStretchLimit = 2047;
+inline constexpr std::array<uint16_t, 4096> kSquash = [] {
+  std::array<uint16_t, 4096> table{};
+  // e^(-k / 256) with 31 binary digits, from e^(-1 / 256) = 2139111403 / 2^31.
+  uint64_t power = uint64_t{1} << 31;
+  for (uint32_t k = 0; k <= 2048; ++k) {
+    const uint64_t one = ((uint64_t{1} << 47) + (power >> 16)) / ((uint64_t{1} << 31) + power);
+    const uint64_t upper = one > 65535 ? 65535 : one;
+    if (k < 2048) table[2048 + k] = static_cast<uint16_t>(upper);
+    table[2048 - k] = static_cast<uint16_t>(65536 - upper);
+    power = (power * 2139111403u + (uint64_t{1} << 30)) >> 31;
+  }
+  return table;
+}();
+
+/// Its inverse: kStretch[p >> 4] for a probability p of 16 bits.
+inline constexpr std::array<int16_t, 4096> kStretch = [] {
+  std::array<int16_t, 4096> table{};
+  uint32_t x = 1;
+  for (uint32_t i = 0; i < 4096; ++i) {
+    while (x < 4095 && kSquash[x] < 16 * i + 8) ++x;
+    table[i] = static_cast<int16_t>(static_cast<int32_t>(x) - 2048);
+  }
+  return table;
+}();
+
+/// How far a probability moves at its n-th observation: 65536 / (n + 1.6).
+inline constexpr std::array<uint16_t, 256> kAdaptation = [] {
+  std::array<uint16_t, 256> table{};
+  for (uint32_t n = 0; n < 256; ++n) table[n] = static_cast<uint16_t>(655360 / (10 * n + 16));
+  return table;
+}();
+
+/// How far a probability of n observations is trusted by the mixer, of 256.
+inline constexpr std::array<uint16_t, 256> kConfidence = [] {
+  std::array<uint16_t, 256> table{};
+  for (uint32_t n = 0; n < 256; ++n) table[n] = static_cast<uint16_t>(n >= 5 ? 256 : 256 * (10 * n + 4) / 50);
+  return table;
+}();
+
+/// kReciprocal[n] = 65536 / n, rounded.
+inline constexpr std::array<uint32_t, 65> kReciprocal = [] {
+  std::array<uint32_t, 65> table{};
+  for (uint32_t n = 1; n <= 64; ++n) table[n] = (65536 + n / 2) / n;
+  return table;
+}();
+
+/// sum / count for count >= 1, rounded to nearest up to 64.
+constexpr int64_t mean(int64_t sum, uint32_t count) {
+  if (count == 1) return sum;
+  if (count == 2) return (sum + 1) >> 1;
+  if (count == 4) return (sum + 2) >> 2;
+  if (count <= 64) return (sum * kReciprocal[count] + 32768) >> 16;
+  return sum / count;
+}
+
+/// Regular polygons: the diagonal over three sides is k times the side, k = 1 + 2 cos(2 pi / n), in 1/4096; and 1 / k.
+struct PolygonRatio {
+  int32_t k;
+  int32_t inverse;
+};
+inline constexpr uint32_t kLargestPolygon = 16;
+inline constexpr std::array<PolygonRatio, kLargestPolygon + 1> kPolygonRatio = {{
+    {0, 0}, {0, 0}, {0, 0}, {0, 0}, {4096, 4096}, {6627, 2531}, {8192, 2048}, {9204, 1823}, {9889, 1697},
+    {10371, 1618}, {10723, 1565}, {10988, 1527}, {11190, 1499}, {11350, 1478}, {11477, 1462}, {11580, 1449},
+    {11664, 1438},
+}};
+
+/// Four times the binary logarithm, roughly: 0, 1, 2, 3, 4 for itself, then four steps per doubling.
+constexpr int32_t quarterLog(uint32_t x) {
+  if (x < 4) return static_cast<int32_t>(x);
+  const int width = std::bit_width(x);
+  return static_cast<int32_t>(4 * (width - 2) + static_cast<int>(x >> (width - 3) & 3));
+}
+
+constexpr int32_t bitLength(uint32_t x) { return static_cast<int32_t>(std::bit_width(x)); }
+
+}  // namespace tutte::values

@@ -1,0 +1,170 @@
+// Attribute values over meshes of every kind: exact round trips, bytes that stay the same, and damaged bytes.
+
+#include <gtest/gtest.h>
+
+#include "codec/bytes.h"
+#include "codec/encode.h"
+#include "codec/values.h"
+#include "tests/shapes/shapes.h"
+
+namespace tutte {
+namespace {
+
+constexpr ValueProfile kProfiles[] = {ValueProfile::kFast, ValueProfile::kDefault, ValueProfile::kSmall};
+
+/// A mesh with one site per vertex.
+struct Sites {
+  ValueGraph graph;
+  std::vector<Index> order;
+  std::vector<Index> vertex_order;
+};
+
+Sites vertexSites(const Polygons& mesh) {
+  Result<Encoded> encoded = encode(mesh);
+  EXPECT_TRUE(encoded);
+  const Connectivity& connectivity = encoded->connectivity;
+  std::vector<Index> sites(connectivity.umbrellas.size());
+  for (Index c = 0; c < sites.size(); ++c) sites[c] = connectivity.vertexOf(c);
+  Sites result{buildValueGraph(connectivity, std::move(sites), connectivity.vertex_count), {}, encoded->vertex_order};
+  result.order = valueOrder(result.graph);
+  return result;
+}
+
+/// Values that are smooth where neighbours have near numbers, with some noise.
+std::vector<int32_t> someValues(const Sites& sites, int components, int32_t max, uint64_t seed) {
+  shapes::Random random(seed);
+  std::vector<int32_t> values;
+  for (const Index vertex : sites.vertex_order) {
+    for (int c = 0; c < components; ++c) {
+      const int64_t smooth = int64_t{vertex} * max / static_cast<int64_t>(sites.vertex_order.size()) * (c + 1) / 4;
+      const int64_t noise = random.below(static_cast<Index>(max / 50 + 1));
+      values.push_back(static_cast<int32_t>(std::min<int64_t>(smooth + noise, max)));
+    }
+  }
+  return values;
+}
+
+std::vector<uint8_t> bytesOf(const Sites& sites, const ValueFormat& format, std::span<const int32_t> values) {
+  ByteWriter out;
+  encodeValues(sites.graph, sites.order, format, values, out);
+  return std::move(out).take();
+}
+
+TEST(Values, OrderVisitsEverySiteOnce) {
+  for (const auto& [name, shape] : shapes::allShapes()) {
+    Sites sites = vertexSites(shape.mesh);
+    std::vector<bool> seen(sites.graph.site_count, false);
+    for (const Index site : sites.order) {
+      ASSERT_LT(site, seen.size()) << name;
+      ASSERT_FALSE(seen[site]) << name;
+      seen[site] = true;
+    }
+    EXPECT_EQ(sites.order.size(), seen.size()) << name;
+  }
+}
+
+TEST(Values, RoundTrips) {
+  for (const auto& [name, shape] : shapes::allShapes()) {
+    const Sites sites = vertexSites(shape.mesh);
+    for (const ValueProfile profile : kProfiles) {
+      for (int components = 1; components <= 4; ++components) {
+        for (const int32_t max : {0, 1, 255, 16383, (1 << 27) - 1}) {
+          const ValueFormat format{components, max, profile, components == 3 && max > 255};
+          const std::vector<int32_t> values = someValues(sites, components, max, static_cast<uint64_t>(max));
+          const std::vector<uint8_t> bytes = bytesOf(sites, format, values);
+          const Result<std::vector<int32_t>> decoded = decodeValues(sites.graph, sites.order, format, bytes);
+          ASSERT_TRUE(decoded) << name << ": " << describe(decoded.error());
+          ASSERT_EQ(*decoded, values) << name << ", " << components << " components up to " << max;
+        }
+      }
+    }
+  }
+}
+
+/// The extremes of the range side by side: the largest residuals there are.
+TEST(Values, Extremes) {
+  const Sites sites = vertexSites(shapes::triangleTorus(20, 20).mesh);
+  for (const ValueProfile profile : kProfiles) {
+    for (const int32_t max : {1, 1 << 20, (1 << 27) - 1}) {
+      shapes::Random random(7);
+      std::vector<int32_t> values(size_t{sites.graph.site_count} * 3);
+      for (int32_t& value : values) value = random.below(2) ? max : 0;
+      const ValueFormat format{3, max, profile, true};
+      const auto decoded = decodeValues(sites.graph, sites.order, format, bytesOf(sites, format, values));
+      ASSERT_TRUE(decoded);
+      EXPECT_EQ(*decoded, values);
+    }
+  }
+}
+
+/// Affine images of a grid are predicted exactly: close to no bytes.
+TEST(Values, PlanesAreNearlyFree) {
+  const Index columns = 60, rows = 60;
+  const shapes::Shape grid = shapes::quadGrid(columns, rows);
+  const Sites sites = vertexSites(grid.mesh);
+  std::vector<int32_t> values;
+  for (const Index vertex : sites.vertex_order) {
+    const auto x = static_cast<int32_t>(vertex % (columns + 1)), y = static_cast<int32_t>(vertex / (columns + 1));
+    values.insert(values.end(), {10 * x + 3 * y, 7 * y, 5 * x + 2 * y + 100});
+  }
+  const std::vector<uint8_t> bytes = bytesOf(sites, {3, 4095, ValueProfile::kDefault, true}, values);
+  EXPECT_LT(bytes.size(), size_t{columns} * rows / 16);
+}
+
+bool isHarmless(const Sites& sites, const ValueFormat& format, std::span<const uint8_t> bytes) {
+  const auto decoded = decodeValues(sites.graph, sites.order, format, bytes);
+  if (!decoded) return true;
+  if (decoded->size() != size_t{sites.graph.site_count} * format.components) return false;
+  for (const int32_t value : *decoded) {
+    if (value < 0 || value > format.max) return false;
+  }
+  return true;
+}
+
+TEST(Values, DamagedBytes) {
+  for (const shapes::Shape& shape : {shapes::triangleTorus(6, 6), shapes::quadGrid(5, 5), shapes::hexGrid(4, 4)}) {
+    const Sites sites = vertexSites(shape.mesh);
+    for (const ValueProfile profile : kProfiles) {
+      for (const int32_t max : {16383, (1 << 27) - 1}) {
+        const ValueFormat format{3, max, profile, true};
+        std::vector<uint8_t> bytes = bytesOf(sites, format, someValues(sites, 3, max, 3));
+        for (size_t size = 0; size < bytes.size(); size += 5) {
+          ASSERT_TRUE(isHarmless(sites, format, std::span(bytes).first(size)));
+        }
+        for (size_t bit = 0; bit < 8 * bytes.size(); bit += 7) {
+          bytes[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
+          ASSERT_TRUE(isHarmless(sites, format, bytes));
+          bytes[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
+        }
+        bytes.push_back(1);
+        EXPECT_FALSE(decodeValues(sites.graph, sites.order, format, bytes));
+      }
+    }
+  }
+}
+
+TEST(Values, Noise) {
+  const Sites sites = vertexSites(shapes::randomTriangulation(60, 9).mesh);
+  for (uint64_t seed = 0; seed < 3000; ++seed) {
+    shapes::Random random(seed);
+    std::vector<uint8_t> bytes(random.below(300));
+    for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random.next());
+    const ValueFormat format{3, seed % 2 ? 4095 : (1 << 27) - 1, kProfiles[seed % 3], true};
+    ASSERT_TRUE(isHarmless(sites, format, bytes)) << seed;
+  }
+}
+
+/// Wedges with equal values on both sides of an edge that is no seam are one site.
+TEST(Values, WedgesJoinAcrossEdgesWithoutSeam) {
+  const Result<Encoded> encoded = encode(shapes::cube().mesh);
+  ASSERT_TRUE(encoded);
+  const Connectivity& mesh = encoded->connectivity;
+  std::vector<Index> wedges(mesh.umbrellas.size());
+  for (Index c = 0; c < wedges.size(); ++c) wedges[c] = c;
+  EXPECT_EQ(joinWedges(mesh, wedges, 24, {}).count, 8u);
+  const std::vector<uint8_t> all(wedges.size(), 1);
+  EXPECT_EQ(joinWedges(mesh, wedges, 24, all).count, 24u);
+}
+
+}  // namespace
+}  // namespace tutte
