@@ -38,9 +38,9 @@ Outcome<Asset> parseAsset(std::span<const uint8_t> bytes, const std::filesystem:
 /// become data URIs; external images that were loaded are embedded.
 Outcome<Bytes> toGlb(const Asset& asset);
 
-/// Writes .glb, or .gltf with its buffers as `<stem>.bin` (`<stem>1.bin`, ... when there are more) and its external
-/// images beside it. Which one is told by the extension of `path`. A fallback buffer is written as
-/// `<stem>.fallback.bin` in both cases. Files are written under temporary names and renamed when all are complete.
+/// Writes .glb, or .gltf with its buffer as `<stem>.bin` and its external images beside it; which one is told by the
+/// extension of `path`. Fallback data is written as `<stem>.fallback.bin` in both cases. All files are written under
+/// temporary names and renamed when they are complete. Errors: kUsage (another extension), kIo, and those of toGlb().
 Outcome<Done> saveAsset(const Asset& asset, const std::filesystem::path& path);
 
 }  // namespace tutte

@@ -41,7 +41,7 @@ class PolygonReader {
 
   Outcome<Done> readRings(std::span<const Index> loops) {
     exterior_ = static_cast<Index>(faces_.degrees.size());
-    local_.clear();
+    first_corner_ = static_cast<Index>(faces_.corners.size());
     size_t begin = 0;
     for (size_t i = 0; i <= loops.size(); ++i) {
       if (i < loops.size() && loops[i] != kNone) continue;
@@ -59,7 +59,9 @@ class PolygonReader {
     faces_.ring_owners.push_back(is_hole ? exterior_ : kNone);
     faces_.triangulation.counts.push_back(0);
     for (const Index wedge : ring) {
-      local_.emplace(wedge, static_cast<Index>(faces_.corners.size()));
+      const auto corner = static_cast<Index>(faces_.corners.size());
+      Index& local = local_.try_emplace(wedge, corner).first->second;
+      if (local < first_corner_) local = corner;
       faces_.corners.push_back(wedge);
     }
   }
@@ -68,7 +70,7 @@ class PolygonReader {
     if (triangles.size() % 3 != 0) return invalid(where_ + "/indicesOffsets", "an offset is not at a triangle");
     for (const Index wedge : triangles) {
       const auto corner = local_.find(wedge);
-      if (corner == local_.end()) {
+      if (corner == local_.end() || corner->second < first_corner_) {
         return invalid(where_, "a triangle uses a vertex that is not on its polygon's rings");
       }
       faces_.triangulation.corners.push_back(corner->second);
@@ -81,7 +83,10 @@ class PolygonReader {
   const PolygonArrays& arrays_;
   const std::string& where_;
   PrimitiveFaces faces_;
-  std::unordered_map<Index, Index> local_;  ///< wedge -> corner, of the polygon at hand
+  /// Wedge -> its first corner in the polygon at hand; entries below first_corner_ are older polygons'. It is never
+  /// cleared, because that would cost as much as the largest polygon, every time.
+  std::unordered_map<Index, Index> local_;
+  Index first_corner_ = 0;
   Index exterior_ = 0;
   bool has_holes_ = false;
 };
@@ -203,7 +208,7 @@ PolygonNotation notationOf(const Json& primitive, bool fb_everywhere) {
   const bool fb = fb_everywhere || extensionOf(primitive, "FB_ngon_encoding");
   const bool ext = extensionOf(primitive, "EXT_mesh_polygon");
   if (ext) return fb ? PolygonNotation::kBoth : PolygonNotation::kExt;
-  return fb ? PolygonNotation::kFb : PolygonNotation::kNone;
+  return fb ? PolygonNotation::kFb : PolygonNotation::kTriangles;
 }
 
 Outcome<PrimitiveFaces> readFaces(const Asset& asset, const Json& primitive, uint64_t wedge_count, bool fb_everywhere,

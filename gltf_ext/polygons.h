@@ -51,7 +51,7 @@ Outcome<PrimitiveFaces> facesOfPolygons(std::span<const Index> triangles, const 
                                         const std::string& where);
 
 /// How a primitive notes its polygons.
-enum class PolygonNotation { kNone, kFb, kExt, kBoth };
+enum class PolygonNotation { kTriangles, kFb, kExt, kBoth };
 
 /// `fb_everywhere`: the file uses FB_ngon_encoding without marking any primitive, as some exporters do.
 PolygonNotation notationOf(const Json& primitive, bool fb_everywhere);

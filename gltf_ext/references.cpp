@@ -1,5 +1,6 @@
 #include "gltf_ext/references.h"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -141,15 +142,12 @@ std::vector<size_t> countUses(Json& json, const char* array, void (*walk)(Json&,
 /// Removes the marked elements of an array and renumbers what refers to the others.
 void removeElements(Json& json, const char* array, const std::vector<bool>& removed,
                     void (*walk)(Json&, const Visit&)) {
+  if (std::find(removed.begin(), removed.end(), true) == removed.end()) return;
   std::vector<uint64_t> moved(removed.size());
   Json kept = Json::array();
   for (size_t i = 0; i < removed.size(); ++i) {
     moved[i] = kept.size();
     if (!removed[i]) kept.push_back(std::move(json[array][i]));
-  }
-  if (kept.size() == removed.size()) {
-    json[array] = std::move(kept);
-    return;
   }
   if (kept.empty()) {
     json.erase(array);
@@ -237,21 +235,25 @@ std::vector<size_t> accessorUses(Json& json) { return countUses(json, "accessors
 
 std::vector<size_t> viewUses(Json& json) { return countUses(json, "bufferViews", forEachViewReference); }
 
-void removeUnused(Asset& asset, const std::set<uint64_t>& accessors, const std::set<uint64_t>& views) {
+void removeUnusedAccessors(Asset& asset, const std::set<uint64_t>& candidates) {
   Json& json = asset.json;
   const Suspects suspects = suspectsOf(json);
-  const bool renumber = suspects.numbers.empty();
-  const std::vector<bool> idle_accessors = idle(accessors, accessorUses(json), suspects);
-  if (renumber) removeElements(json, "accessors", idle_accessors, forEachAccessorReference);
-  for (size_t i = 0; !renumber && i < idle_accessors.size(); ++i) {
-    if (!idle_accessors[i]) continue;
+  const std::vector<bool> unused = idle(candidates, accessorUses(json), suspects);
+  if (suspects.numbers.empty()) return removeElements(json, "accessors", unused, forEachAccessorReference);
+  for (size_t i = 0; i < unused.size(); ++i) {
+    if (!unused[i]) continue;
     json["accessors"][i].erase("bufferView");
     json["accessors"][i].erase("sparse");
   }
-  const std::vector<bool> idle_views = idle(views, viewUses(json), suspects);
-  if (renumber) removeElements(json, "bufferViews", idle_views, forEachViewReference);
-  for (size_t i = 0; !renumber && i < idle_views.size(); ++i) {
-    if (idle_views[i]) emptyView(json["bufferViews"][i]);
+}
+
+void removeUnusedViews(Asset& asset, const std::set<uint64_t>& candidates) {
+  Json& json = asset.json;
+  const Suspects suspects = suspectsOf(json);
+  const std::vector<bool> unused = idle(candidates, viewUses(json), suspects);
+  if (suspects.numbers.empty()) return removeElements(json, "bufferViews", unused, forEachViewReference);
+  for (size_t i = 0; i < unused.size(); ++i) {
+    if (unused[i]) emptyView(json["bufferViews"][i]);
   }
 }
 

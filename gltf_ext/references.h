@@ -32,8 +32,11 @@ std::vector<size_t> accessorUses(Json& json);
 /// How often each buffer view is referred to, by what we know.
 std::vector<size_t> viewUses(Json& json);
 
-/// Removes those of the given accessors and buffer views that nothing refers to. When an extension that we do not know
-/// holds integers, indices stay as they are: then the unused are emptied, except those it might mean.
-void removeUnused(Asset& asset, const std::set<uint64_t>& accessors, const std::set<uint64_t>& views);
+/// Removes those of the given accessors that nothing refers to. When an extension that we do not know holds integers,
+/// indices stay as they are: then the unused are emptied, except those it might mean.
+void removeUnusedAccessors(Asset& asset, const std::set<uint64_t>& candidates);
+
+/// The same for buffer views.
+void removeUnusedViews(Asset& asset, const std::set<uint64_t>& candidates);
 
 }  // namespace tutte

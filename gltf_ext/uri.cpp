@@ -128,7 +128,8 @@ Outcome<std::filesystem::path> safeRelativePath(std::string_view uri, const std:
   if (!decoded) return invalid(where, "the URI has an invalid percent escape");
   if (hasScheme(uri) || hasScheme(*decoded)) return invalid(where, "URIs with a scheme or a drive are not followed");
   for (const char c : *decoded) {
-    if (c == '\\' || static_cast<uint8_t>(c) < 32) return invalid(where, "the URI has a backslash or a control character");
+    if (c == '\\' || static_cast<uint8_t>(c) < 32)
+      return invalid(where, "the URI has a backslash or a control character");
   }
   const std::filesystem::path path(*decoded);
   if (path.is_absolute() || path.has_root_path()) return invalid(where, "absolute paths are not followed");

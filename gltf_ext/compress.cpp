@@ -1,0 +1,324 @@
+#include "gltf_ext/compress.h"
+
+#include <algorithm>
+#include <map>
+
+#include "gltf_ext/accessors.h"
+#include "gltf_ext/buffers.h"
+#include "gltf_ext/decompress.h"
+#include "gltf_ext/emit.h"
+#include "gltf_ext/foreign.h"
+#include "gltf_ext/gather.h"
+#include "gltf_ext/plan.h"
+#include "gltf_ext/polygons.h"
+#include "gltf_ext/references.h"
+
+namespace tutte {
+namespace {
+
+/// "POSITION@3" to "POSITION".
+std::string baseName(const std::string& name) { return name.substr(0, name.find('@')); }
+
+/// Removes the attributes that are not to be kept. A morph target that would become empty stays as it is, because
+/// glTF has no empty ones.
+void keepAttributes(Json& json, const std::set<std::string>& kept) {
+  const auto filter = [&](Json& list, bool may_be_empty) {
+    if (!list.is_object()) return;
+    Json filtered = Json::object();
+    for (const auto& [name, accessor] : list.items()) {
+      if (name == "POSITION" || kept.count(name)) filtered[name] = accessor;
+    }
+    if (may_be_empty || !filtered.empty()) list = std::move(filtered);
+  };
+  for (size_t m = 0; m < countOf(json, "meshes"); ++m) {
+    const Json* primitives = member(json["meshes"][m], "primitives");
+    if (!primitives || !primitives->is_array()) continue;
+    for (Json& primitive : json["meshes"][m]["primitives"]) {
+      if (objectMember(primitive, "attributes")) filter(primitive["attributes"], true);
+      const Json* targets = member(primitive, "targets");
+      if (!targets || !targets->is_array()) continue;
+      for (Json& target : primitive["targets"]) filter(target, false);
+    }
+  }
+}
+
+/// Says on every triangle primitive what the file says as a whole, so that it stays true when some of them change.
+void markFans(Json& json) {
+  for (size_t m = 0; m < countOf(json, "meshes"); ++m) {
+    const Json* primitives = member(json["meshes"][m], "primitives");
+    if (!primitives || !primitives->is_array()) continue;
+    for (Json& primitive : json["meshes"][m]["primitives"]) {
+      const auto mode = integerMember(primitive, "mode", kModeTriangles, "");
+      if (!primitive.is_object() || !mode || *mode != kModeTriangles) continue;
+      primitive["extensions"]["FB_ngon_encoding"] = Json::object();
+    }
+  }
+}
+
+std::set<uint64_t> inUse(const std::vector<size_t>& uses) {
+  std::set<uint64_t> indices;
+  for (size_t i = 0; i < uses.size(); ++i) {
+    if (uses[i] > 0) indices.insert(i);
+  }
+  return indices;
+}
+
+/// Compresses one asset in place.
+class Compressor {
+ public:
+  Compressor(Asset& asset, const CompressOptions& options, CompressReport& report)
+      : asset_(asset), options_(options), report_(report), emitter_(asset, options.fallback) {}
+
+  Outcome<Done> run() {
+    const std::set<uint64_t> accessors = inUse(accessorUses(asset_.json)), views = inUse(viewUses(asset_.json));
+    if (!options_.attributes.empty()) keepAttributes(asset_.json, options_.attributes);
+    if (usesUnmarkedFans(asset_.json)) markFans(asset_.json);
+    const auto plans = planPayloads(asset_, Purpose::kCompress, report_.warnings);
+    if (!plans) return plans.error();
+    for (const PayloadPlan& plan : *plans) {
+      const auto done = compressPayload(plan);
+      if (!done && done.error().kind != FailureKind::kUnsupported) return done;
+      if (!done) report_.warnings.push_back(done.error());
+    }
+    emitter_.finish();
+    finishPolygonExtensions();
+    removeUnusedAccessors(asset_, accessors);
+    trimViews(asset_, views);
+    removeUnusedViews(asset_, views);
+    return mergeBuffers(asset_);
+  }
+
+ private:
+  struct Groups {
+    std::vector<PrimitiveFaces> faces;
+    std::vector<GroupWish> wishes;
+    std::vector<PrimitivePlace> primitives;  ///< those with faces
+    std::vector<size_t> group_of;            ///< per primitive
+    uint64_t index_bytes = 1;
+  };
+
+  Outcome<Done> compressPayload(const PayloadPlan& plan) {
+    auto groups = readGroups(plan);
+    if (!groups) return groups.error();
+    if (groups->faces.empty()) return Done{};
+    auto attributes = readAttributes(plan);
+    if (!attributes) return attributes.error();
+    const PolygonMesh mesh =
+        weldMesh(std::move(groups->faces), *std::move(attributes), static_cast<Index>(plan.wedge_count));
+    auto packed = pack(mesh, options_.pack);
+    if (!packed) {
+      report_.warnings.push_back(at(plan, packed.error()));
+      return Done{};
+    }
+    const auto decoded = unpack(packed->bytes);
+    if (!decoded) return at(plan, decoded.error());
+    const auto emitted = emitter_.add(std::move(packed->bytes), *decoded, groups->wishes, groups->index_bytes);
+    if (!emitted) return at(plan, emitted.error());
+    addReport(plan, mesh, *std::move(packed));
+    rewrite(plan, *groups, *emitted);
+    return Done{};
+  }
+
+  static Failure at(const PayloadPlan& plan, Failure failure) {
+    failure.where = plan.primitives[0].pointer() + (failure.where.empty() ? "" : " " + failure.where);
+    return failure;
+  }
+
+  /// Primitives with the same indices and notation show the same group.
+  Outcome<Groups> readGroups(const PayloadPlan& plan) {
+    Groups groups;
+    std::map<std::string, size_t> known;
+    for (const PrimitivePlace& place : plan.primitives) {
+      const Json& primitive = place.in(asset_.json);
+      Json key = {{"indices", nullptr}, {"mode", kModeTriangles}, {"polygons", nullptr}};
+      for (const char* name : {"indices", "mode"}) {
+        if (const Json* value = member(primitive, name)) key[name] = *value;
+      }
+      if (const Json* polygons = extensionOf(primitive, "EXT_mesh_polygon")) key["polygons"] = *polygons;
+      key["fans"] = extensionOf(primitive, "FB_ngon_encoding") != nullptr;
+      const auto [group, is_new] = known.try_emplace(key.dump(), groups.faces.size());
+      if (is_new) {
+        const auto added = addGroup(groups, place, plan.wedge_count);
+        if (!added) return added.error();
+        if (!*added) {
+          known.erase(group);
+          continue;
+        }
+      }
+      groups.primitives.push_back(place);
+      groups.group_of.push_back(group->second);
+    }
+    return groups;
+  }
+
+  /// False when the primitive has no triangles, which no accessor could show.
+  Outcome<bool> addGroup(Groups& groups, PrimitivePlace place, uint64_t wedge_count) {
+    const Json& primitive = place.in(asset_.json);
+    auto faces = readFaces(asset_, primitive, wedge_count, false, place.pointer());
+    if (!faces) return faces.error();
+    const auto& counts = faces->triangulation.counts;
+    const bool drawn = counts.empty() ? !faces->degrees.empty() : !faces->triangulation.corners.empty();
+    if (!drawn) {
+      report_.warnings.push_back(unsupported(place.pointer(), "a primitive without triangles stays as it is"));
+      return false;
+    }
+    const auto indices = integerMember(primitive, "indices", "");
+    const auto shape = indices ? accessorShape(asset_.json, *indices) : Outcome<AccessorShape>(AccessorShape{});
+    groups.index_bytes = std::max<uint64_t>(groups.index_bytes, indices && shape ? sizeOf(shape->type) : 2);
+    groups.wishes.push_back({wishOf(primitive, *faces)});
+    groups.faces.push_back(*std::move(faces));
+    return true;
+  }
+
+  PolygonNotation wishOf(const Json& primitive, const PrimitiveFaces& faces) const {
+    const PolygonNotation found = notationOf(primitive, false);
+    const bool all_triangles = faces.ring_owners.empty() && std::all_of(faces.degrees.begin(), faces.degrees.end(),
+                                                                        [](Index degree) { return degree == 3; });
+    if (all_triangles && found != PolygonNotation::kExt) return PolygonNotation::kTriangles;
+    if (options_.polygons == PolygonOutput::kAuto) return found;
+    switch (options_.polygons) {
+      case PolygonOutput::kFb: return PolygonNotation::kFb;
+      case PolygonOutput::kExt: return PolygonNotation::kExt;
+      default: return PolygonNotation::kBoth;
+    }
+  }
+
+  Outcome<std::vector<Attribute>> readAttributes(const PayloadPlan& plan) {
+    std::vector<Attribute> attributes;
+    for (const PlannedAttribute& planned : plan.attributes) {
+      const auto shape = accessorShape(asset_.json, planned.accessor);
+      if (!shape) return shape.error();
+      auto data = readAccessor(asset_, planned.accessor);
+      if (!data) return data.error();
+      attributes.push_back(
+          {planned.name, static_cast<uint8_t>(shape->components), shape->type, shape->normalized, *std::move(data)});
+    }
+    return attributes;
+  }
+
+  void addReport(const PayloadPlan& plan, const PolygonMesh& mesh, Packed packed) {
+    const Json& first = asset_.json["meshes"][plan.primitives[0].mesh];
+    report_.payloads.push_back({stringMember(first, "name"), mesh.polygons.vertex_count, mesh.wedge_count,
+                                mesh.polygons.face_degrees.size(), mesh.polygons.corners.size(), mesh.group_count,
+                                std::move(packed)});
+  }
+
+  /// Points the primitives to new accessors. Old ones stay until nobody uses them.
+  void rewrite(const PayloadPlan& plan, const Groups& groups, const EmittedPayload& emitted) {
+    std::map<uint64_t, uint64_t> replaced;
+    for (size_t i = 0; i < plan.attributes.size(); ++i) {
+      const PlannedAttribute& planned = plan.attributes[i];
+      replaced[planned.accessor] = addAccessor(planned.accessor, emitted.attributes[i], baseName(planned.name));
+    }
+    std::map<size_t, Json> group_members;
+    for (size_t i = 0; i < groups.primitives.size(); ++i) {
+      Json& primitive = groups.primitives[i].in(asset_.json);
+      replaceAll(primitive["attributes"], replaced);
+      if (member(primitive, "targets")) {
+        for (Json& target : primitive["targets"]) replaceAll(target, replaced);
+      }
+      const size_t group = groups.group_of[i];
+      if (!group_members.count(group)) group_members[group] = addGroupAccessors(primitive, emitted.groups[group]);
+      writeGroup(primitive, group_members[group], emitted.groups[group], groups.primitives[i],
+                 groups.wishes[group].notation);
+    }
+  }
+
+  static void replaceAll(Json& references, const std::map<uint64_t, uint64_t>& replaced) {
+    for (Json& reference : references) reference = replaced.at(*asInteger(reference));
+  }
+
+  /// The old accessor's name and extras, the new one's data. Bounds are given where glTF or the old one has them.
+  uint64_t addAccessor(uint64_t old_index, const Json& emitted, const std::string& name) {
+    const Json& old = asset_.json["accessors"][old_index];
+    Json accessor = emitted;
+    if (name != "POSITION" && !old.contains("min") && !old.contains("max")) {
+      accessor.erase("min");
+      accessor.erase("max");
+    }
+    for (const char* key : {"name", "extras", "extensions"}) {
+      if (old.contains(key)) accessor[key] = old[key];
+    }
+    return appendElement(asset_.json, "accessors", std::move(accessor));
+  }
+
+  Json addGroupAccessors(const Json& primitive, const EmittedGroup& group) {
+    Json members = Json::object();
+    Json indices = group.indices;
+    const auto old = integerMember(primitive, "indices", "");
+    for (const char* key : {"name", "extras"}) {
+      if (old && asset_.json["accessors"][*old].contains(key)) indices[key] = asset_.json["accessors"][*old][key];
+    }
+    members["indices"] = appendElement(asset_.json, "accessors", std::move(indices));
+    if (group.polygons == 0) return members;
+    members["polygon"] = {{"count", group.polygons},
+                          {"indicesOffsets", appendElement(asset_.json, "accessors", group.index_offsets)},
+                          {"loopIndices", appendElement(asset_.json, "accessors", group.loops)},
+                          {"loopIndicesOffsets", appendElement(asset_.json, "accessors", group.loop_offsets)}};
+    return members;
+  }
+
+  void writeGroup(Json& primitive, const Json& members, const EmittedGroup& group, PrimitivePlace place,
+                  PolygonNotation wish) {
+    primitive["indices"] = members["indices"];
+    primitive.erase("mode");
+    eraseExtension(primitive, "FB_ngon_encoding");
+    if (group.fans) primitive["extensions"]["FB_ngon_encoding"] = Json::object();
+    if (group.polygons > 0) {
+      Json& polygon = primitive["extensions"]["EXT_mesh_polygon"];
+      polygon.update(members["polygon"]);
+    } else {
+      eraseExtension(primitive, "EXT_mesh_polygon");
+    }
+    if ((wish == PolygonNotation::kFb || wish == PolygonNotation::kBoth) && !group.fans) {
+      report_.warnings.push_back(unsupported(
+          place.pointer(), "not all polygons are fans that differ in their first vertex: EXT_mesh_polygon is used"));
+    }
+  }
+
+  /// Lists the polygon extensions that are in use after all. Primitives that stayed as they are count, too.
+  void finishPolygonExtensions() {
+    bool fans = false, polygons = false;
+    for (size_t m = 0; m < countOf(asset_.json, "meshes"); ++m) {
+      for (Json& primitive : asset_.json["meshes"][m]["primitives"]) {
+        fans |= extensionOf(primitive, "FB_ngon_encoding") != nullptr;
+        polygons |= extensionOf(primitive, "EXT_mesh_polygon") != nullptr;
+      }
+    }
+    setUsed("FB_ngon_encoding", fans);
+    setUsed("EXT_mesh_polygon", polygons);
+  }
+
+  void setUsed(const char* extension, bool used) {
+    if (used) {
+      addExtension(asset_.json, "extensionsUsed", extension);
+    } else {
+      removeExtension(asset_.json, "extensionsUsed", extension);
+      removeExtension(asset_.json, "extensionsRequired", extension);
+    }
+  }
+
+  Asset& asset_;
+  const CompressOptions& options_;
+  CompressReport& report_;
+  PayloadEmitter emitter_;
+};
+
+Outcome<Compressed> compressGuarded(const Asset& asset, const CompressOptions& options) {
+  auto plain = decompress(asset);
+  if (!plain) return plain.error();
+  Compressed result{*std::move(plain), {}};
+  const auto decoded = decodeForeign(result.asset, result.report.warnings);
+  if (!decoded) return decoded.error();
+  const auto done = Compressor(result.asset, options, result.report).run();
+  if (!done) return done.error();
+  return result;
+}
+
+}  // namespace
+
+Outcome<Compressed> compress(const Asset& asset, const CompressOptions& options) {
+  return guarded<Compressed>([&] { return compressGuarded(asset, options); });
+}
+
+}  // namespace tutte
