@@ -1,9 +1,10 @@
 #include "gltf_ext/draco_mesh.h"
 
 #include <draco/compression/mesh/traverser/depth_first_traverser.h>
-#include <draco/compression/mesh/traverser/max_prediction_degree_traverser.h>
 
 #include <algorithm>
+
+#include "gltf_ext/polygon_order.h"
 
 namespace tutte {
 namespace {
@@ -87,29 +88,43 @@ class TableBuilder {
   }
 
   void addFans() {
-    Index first = 0;
+    const PolygonOrder order = orderPolygons(mesh_);
+    std::vector<Index> starts;  // per face: the first corner of its fan
+    Index first = 0, face = 0;
     for (const Index degree : mesh_.face_degrees) {
-      if (degree >= 3) addFan(first, degree);
+      starts.push_back(nextCorner());
+      if (degree >= 3) addFan(first, degree, order.anchors[face]);
       first += degree;
+      ++face;
     }
+    out_.grown.reserve(mesh_.umbrellas.size());
+    for (const Index grown : order.faces) listGrown(starts[grown], mesh_.face_degrees[grown]);
   }
 
-  void addFan(Index first, Index degree) {
+  void addFan(Index first, Index degree, Index anchor) {
     const Index start = nextCorner();
+    const auto coded = [&](Index i) { return first + (i < degree - anchor ? anchor + i : anchor + i - degree); };
     for (Index i = 1; i + 1 < degree; ++i) {
-      for (const Index corner : {first, first + i, first + i + 1}) {
+      for (const Index corner : {coded(0), coded(i), coded(i + 1)}) {
         addCorner(mesh_.umbrellas[corner], topology_.wedges[corner]);
       }
-      out_.edge_corners[first + i] = start + 3 * (i - 1);
+      out_.edge_corners[coded(i)] = start + 3 * (i - 1);
       if (i > 1) glue(out_.table, start + 3 * (i - 2) + 1, start + 3 * (i - 1) + 2);
     }
-    out_.edge_corners[first] = start + 2;
-    out_.edge_corners[first + degree - 1] = start + 3 * (degree - 3) + 1;
+    out_.edge_corners[coded(0)] = start + 2;
+    out_.edge_corners[coded(degree - 1)] = start + 3 * (degree - 3) + 1;
+  }
+
+  void listGrown(Index start, Index degree) {
+    out_.grown.push_back(start);
+    out_.grown.push_back(start + 1);
+    for (Index i = 2; i < degree; ++i) out_.grown.push_back(start + 3 * (i - 2) + 2);
   }
 
   void addLoose(const std::vector<Index>& loose) {
     Index vertex = mesh_.umbrella_count;
     for (size_t i = 0; i < (loose.size() + 2) / 3 * 3; ++i) {
+      out_.grown.push_back(nextCorner());
       addCorner(vertex++, loose[std::min(i, loose.size() - 1)]);
     }
   }
@@ -153,16 +168,17 @@ class TableBuilder {
   TriangleTable& out_;
 };
 
+/// Notes where Draco's traversal meets a vertex first.
 struct Collector {
   std::vector<CornerIndex>* corners = nullptr;
   void OnNewFaceVisited(FaceIndex) {}
   void OnNewVertexVisited(VertexIndex, CornerIndex corner) { corners->push_back(corner); }
 };
 
-template <class Traverser, class Table>
-std::vector<CornerIndex> traverse(const Table& table) {
+template <class Table>
+std::vector<CornerIndex> depthFirst(const Table& table) {
   std::vector<CornerIndex> corners;
-  Traverser traverser;
+  draco::DepthFirstTraverser<Table, Collector> traverser;
   traverser.Init(&table, Collector{&corners});
   traverser.OnTraversalStart();
   for (int face = 0; face < table.num_faces(); ++face) traverser.TraverseFromCorner(CornerIndex(3 * face));
@@ -170,20 +186,22 @@ std::vector<CornerIndex> traverse(const Table& table) {
   return corners;
 }
 
-std::vector<CornerIndex> cornersInOrder(const draco::CornerTable& table, ValueOrder order) {
-  if (order == ValueOrder::kDepthFirst) {
-    return traverse<draco::DepthFirstTraverser<draco::CornerTable, Collector>>(table);
-  }
-  return traverse<draco::MaxPredictionDegreeTraverser<draco::CornerTable, Collector>>(table);
-}
-
-std::vector<CornerIndex> cornersInOrder(const draco::MeshAttributeCornerTable& table) {
-  return traverse<draco::DepthFirstTraverser<draco::MeshAttributeCornerTable, Collector>>(table);
-}
-
-/// Numbers the values along `corners`.
 template <class Table>
-void number(const Table& table, const TriangleTable& triangles, std::vector<CornerIndex> corners, ValueLayout& out) {
+std::vector<CornerIndex> asGrown(const Table& table, const TriangleTable& triangles) {
+  std::vector<bool> met(table.num_vertices(), false);
+  std::vector<CornerIndex> corners;
+  for (const Index corner : triangles.grown) {
+    const uint32_t vertex = table.Vertex(CornerIndex(corner)).value();
+    if (!met[vertex]) corners.push_back(CornerIndex(corner));
+    met[vertex] = true;
+  }
+  return corners;
+}
+
+/// Numbers the values in the given order.
+template <class Table>
+void number(const Table& table, const TriangleTable& triangles, ValueOrder order, ValueLayout& out) {
+  std::vector<CornerIndex> corners = order == ValueOrder::kGrown ? asGrown(table, triangles) : depthFirst(table);
   out.data.vertex_to_encoded_attribute_value_index_map.assign(table.num_vertices(), -1);
   out.points.reserve(corners.size());
   for (const CornerIndex& corner : corners) {
@@ -219,7 +237,6 @@ std::unique_ptr<TriangleTable> buildTriangleTable(const AttributeTopology& topol
 
 const ValueLayout* ValueLayouts::get(std::span<const uint8_t> seams, ValueOrder order) {
   if (!anySeam(seams)) seams = {};
-  if (!seams.empty()) order = ValueOrder::kDepthFirst;
   for (const Entry& entry : entries_) {
     if (entry.order == order && std::ranges::equal(entry.seams, seams)) return entry.layout.get();
   }
@@ -231,12 +248,12 @@ std::unique_ptr<ValueLayout> ValueLayouts::make(std::span<const uint8_t> seams, 
   auto layout = std::make_unique<ValueLayout>();
   layout->data.num_values = 0;
   if (seams.empty()) {
-    number(triangles_.table, triangles_, cornersInOrder(triangles_.table, order), *layout);
+    number(triangles_.table, triangles_, order, *layout);
     return layout;
   }
   layout->seams = cutAlong(seams, triangles_);
   if (!layout->seams) return nullptr;
-  number(*layout->seams, triangles_, cornersInOrder(*layout->seams), *layout);
+  number(*layout->seams, triangles_, order, *layout);
   return layout;
 }
 

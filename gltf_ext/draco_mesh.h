@@ -14,7 +14,7 @@
 
 namespace tutte {
 
-/// The polygons of a topology as triangles: fans around each face's first coded corner. Vertices of the table are the
+/// The polygons of a topology as triangles: fans from their anchors (polygon_order.h). Vertices of the table are the
 /// umbrellas. Wedges that no triangle uses (isolated vertices, faces of degree below 3) follow three by three as
 /// triangles of their own with three new vertices; the last of them repeats its last wedge.
 struct TriangleTable {
@@ -22,6 +22,8 @@ struct TriangleTable {
   std::vector<Index> wedges;        ///< per corner of the table: its wedge
   std::vector<Index> edge_corners;  ///< per coded corner: the table's corner opposite to the edge that leaves it;
                                     ///< kNone in faces of degree below 3
+  std::vector<Index> grown;         ///< one corner of the table per coded corner, face by face as they were grown, from
+                                    ///< the anchor on, in the triangle of which it is the last; then all loose ones
 
   size_t cornerCount() const { return wedges.size(); }
 };
@@ -32,8 +34,8 @@ std::unique_ptr<TriangleTable> buildTriangleTable(const AttributeTopology& topol
 
 /// How values follow each other.
 enum class ValueOrder {
-  kMaxPredictionDegree,  ///< vertices with most known parallelograms first; only without seams
-  kDepthFirst,
+  kGrown,       ///< as their corners are first met in TriangleTable::grown: most parallelograms are known
+  kDepthFirst,  ///< by Draco's depth-first traversal of the triangles, begun at each in turn
 };
 
 /// One attribute's value per vertex and side of its seams, and the order in which these values are coded.

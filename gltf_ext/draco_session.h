@@ -19,7 +19,8 @@ inline constexpr uint8_t kDracoHeader[] = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, kDr
 
 /// The order of a plane's values.
 inline ValueOrder orderOf(PlaneKind kind) {
-  return kind == PlaneKind::kPosition ? ValueOrder::kMaxPredictionDegree : ValueOrder::kDepthFirst;
+  const bool grown = kind == PlaneKind::kPosition || kind == PlaneKind::kSmooth;
+  return grown ? ValueOrder::kGrown : ValueOrder::kDepthFirst;
 }
 
 inline draco::GeometryAttribute::Type dracoType(PlaneKind kind) {
