@@ -112,7 +112,7 @@ class Compressor {
     }
     const auto decoded = unpack(packed->bytes);
     if (!decoded) return at(plan, decoded.error());
-    const auto emitted = emitter_.add(std::move(packed->bytes), *decoded, groups->wishes, groups->index_bytes);
+    const auto emitted = emitter_.add(packed->bytes, *decoded, groups->wishes, groups->index_bytes);
     if (!emitted) return at(plan, emitted.error());
     addReport(plan, mesh, *std::move(packed));
     rewrite(plan, *groups, *emitted);
