@@ -65,6 +65,9 @@ class PlaneDecoder : public draco::SequentialIntegerAttributeDecoder {
   /// The number of each value, components together; null before they are decoded.
   const int32_t* numbers() { return GetPortableAttributeData(); }
 
+  /// After decoding: lets predictors of other planes find positions.
+  void becomeParent() { session_.mapWedges(*portable_attribute()); }
+
   /// True when the stream named a prediction that does not belong here.
   bool refused() const { return refused_; }
 
@@ -124,7 +127,7 @@ class PlanesDecoder : public draco::AttributesDecoderInterface {
     if (!coder->Init(decoder_, id) || !coder->DecodePortableAttribute(layout.points, buffer)) return false;
     if (coder->refused() || coder->numbers() == nullptr || !takeValues(id, coder->numbers())) return false;
     if (session_.plane(id).kind != PlaneKind::kPosition) return true;
-    mapWedges(*mesh_->attribute(id));
+    coder->becomeParent();
     parent_ = std::move(coder);
     return true;
   }
@@ -141,16 +144,6 @@ class PlanesDecoder : public draco::AttributesDecoderInterface {
       std::copy_n(numbers + value * components, components, &plane.values[wedges[corner] * components]);
     }
     return true;
-  }
-
-  /// Predictors find a wedge's position by the attribute's map.
-  void mapWedges(draco::PointAttribute& positions) const {
-    const auto& wedges = session_.triangles().wedges;
-    positions.SetExplicitMapping(mesh_->num_points());
-    for (Index corner = 0; corner < wedges.size(); ++corner) {
-      const auto value = static_cast<uint32_t>(session_.valueAt(0, corner));
-      positions.SetPointMapEntry(draco::PointIndex(wedges[corner]), draco::AttributeValueIndex(value));
-    }
   }
 
   const DracoSession& session_;

@@ -25,6 +25,9 @@ class PlaneEncoder : public draco::SequentialIntegerAttributeEncoder {
  public:
   PlaneEncoder(const Plane& plane, Method method) : plane_(plane), method_(method) {}
 
+  /// After coding: lets predictors of other planes find positions.
+  void becomeParent(const DracoSession& session) { session.mapWedges(*portable_attribute()); }
+
  protected:
   std::unique_ptr<IntScheme> CreateIntPredictionScheme(Method) override {
     if (plane_.octahedral()) {
@@ -71,7 +74,7 @@ class PlanesEncoder : public draco::AttributesEncoder {
   uint8_t GetUniqueId() const override { return 0; }
   bool EncodeAttributesEncoderData(draco::EncoderBuffer*) override { return true; }
   bool EncodePortableAttributes(draco::EncoderBuffer*) override { return true; }
-  bool MarkParentAttribute(int32_t) override { return true; }  // positions always are; see codePlane()
+  bool MarkParentAttribute(int32_t) override { return true; }  // see becomeParent()
 
   const draco::PointAttribute* GetPortableAttribute(int32_t id) override {
     return id == 0 && parent_ ? parent_->GetPortableAttribute() : nullptr;
@@ -90,11 +93,12 @@ class PlanesEncoder : public draco::AttributesEncoder {
     draco::EncoderBuffer best;
     for (const Method method : methodsFor(plane, session_.layout(id).valueCount(), session_.hasParent())) {
       auto coder = std::make_unique<PlaneEncoder>(plane, method);
-      if (plane.kind == PlaneKind::kPosition) coder->MarkParentAttribute();
       draco::EncoderBuffer buffer;
       if (!tryCode(id, *coder, &buffer)) return false;
       if (best.size() == 0 || buffer.size() < best.size()) std::swap(*best.buffer(), *buffer.buffer());
-      if (plane.kind == PlaneKind::kPosition) parent_ = std::move(coder);
+      if (plane.kind != PlaneKind::kPosition) continue;
+      coder->becomeParent(session_);
+      parent_ = std::move(coder);
     }
     return out->Encode(best.data(), best.size());
   }

@@ -18,4 +18,12 @@ bool DracoSession::prepare(draco::Mesh& mesh) {
   return true;
 }
 
+void DracoSession::mapWedges(draco::PointAttribute& positions) const {
+  positions.SetExplicitMapping(topology_.wedge_count);
+  for (Index corner = 0; corner < triangles_.wedges.size(); ++corner) {
+    const auto value = static_cast<uint32_t>(valueAt(0, corner));
+    positions.SetPointMapEntry(draco::PointIndex(triangles_.wedges[corner]), draco::AttributeValueIndex(value));
+  }
+}
+
 }  // namespace tutte

@@ -42,6 +42,9 @@ class DracoSession {
   /// Finds every plane's layout and describes the attributes. False when the seams do not fit.
   bool prepare(draco::Mesh& mesh);
 
+  /// Tells the coded positions (plane 0) which of them each wedge has.
+  void mapWedges(draco::PointAttribute& positions) const;
+
   const TriangleTable& triangles() const { return triangles_; }
   const Plane& plane(int id) const { return planes_[id]; }
   int planeCount() const { return static_cast<int>(planes_.size()); }
