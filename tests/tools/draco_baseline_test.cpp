@@ -1,0 +1,151 @@
+#include "tools/draco_baseline.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "tests/shapes/shapes.h"
+
+namespace tutte {
+namespace {
+
+constexpr uint64_t kDracoHeader = 11;
+
+template <class Value>
+Attribute floats(const char* name, int components, Index count, Value value) {
+  Attribute attribute;
+  attribute.name = name;
+  attribute.components = static_cast<uint8_t>(components);
+  attribute.data.resize(size_t{count} * attribute.stride());
+  for (Index i = 0; i < count * static_cast<Index>(components); ++i) {
+    const float number = static_cast<float>(value(i / components, i % components));
+    std::memcpy(&attribute.data[4 * i], &number, 4);
+  }
+  return attribute;
+}
+
+/// Positions are the shape's own, or invented ones that differ from vertex to vertex.
+PolygonMesh meshOf(const shapes::Shape& shape) {
+  PolygonMesh mesh;
+  mesh.polygons = shape.mesh;
+  mesh.wedge_count = shape.mesh.vertex_count;
+  mesh.attributes.push_back(floats("POSITION", 3, mesh.wedge_count, [&](Index v, int c) {
+    return shape.positions.empty() ? std::sin(1.3 * v + c) : double{shape.positions[v][c]};
+  }));
+  return mesh;
+}
+
+DracoFigures figuresOf(const Outcome<DracoFigures>& outcome) {
+  EXPECT_TRUE(outcome.ok()) << outcome.error().what;
+  return outcome.ok() ? *outcome : DracoFigures{};
+}
+
+TEST(DracoBaseline, BytesAddUpAndTimesAreTaken) {
+  const PolygonMesh mesh = meshOf(shapes::quadTorus(40, 30));
+  for (const int level : {7, 10}) {
+    const DracoFigures figures = figuresOf(dracoTriangles(mesh, {}, {level, 2}));
+    EXPECT_EQ(figures.total_bytes, kDracoHeader + figures.connectivity_bytes + figures.attribute_bytes);
+    EXPECT_GT(figures.connectivity_bytes, 0u);
+    EXPECT_GT(figures.attribute_bytes, figures.connectivity_bytes);
+    EXPECT_GT(figures.connectivity_encode_seconds, 0);
+    EXPECT_GT(figures.connectivity_decode_seconds, 0);
+    EXPECT_GE(figures.encode_seconds, figures.connectivity_encode_seconds);
+    EXPECT_GE(figures.decode_seconds, figures.connectivity_decode_seconds);
+  }
+}
+
+TEST(DracoBaseline, BytesDoNotDependOnRepetitions) {
+  const PolygonMesh mesh = meshOf(shapes::sponge(1));
+  const DracoFigures once = figuresOf(dracoTriangles(mesh, {}, {10, 1}));
+  const DracoFigures often = figuresOf(dracoTriangles(mesh, {}, {10, 3}));
+  EXPECT_EQ(once.total_bytes, often.total_bytes);
+  EXPECT_EQ(once.connectivity_bytes, often.connectivity_bytes);
+}
+
+TEST(DracoBaseline, EqualPositionsAreWelded) {
+  const shapes::Shape shape = shapes::quadTorus(20, 20);
+  PolygonMesh welded = meshOf(shape), cut = welded;
+  // Every corner becomes a vertex of its own.
+  const Index corners = static_cast<Index>(cut.polygons.corners.size());
+  cut.attributes[0] = floats("POSITION", 3, corners,
+                             [&](Index w, int c) { return shape.positions[shape.mesh.corners[w]][c]; });
+  for (Index c = 0; c < corners; ++c) cut.polygons.corners[c] = c;
+  cut.polygons.vertex_count = cut.wedge_count = corners;
+  EXPECT_EQ(figuresOf(dracoTriangles(welded, {}, {})).total_bytes, figuresOf(dracoTriangles(cut, {}, {})).total_bytes);
+}
+
+TEST(DracoBaseline, FewerBitsTakeFewerBytes) {
+  const PolygonMesh mesh = meshOf(shapes::quadTorus(30, 30));
+  const uint64_t coarse = figuresOf(dracoTriangles(mesh, {.position_bits = 8}, {})).attribute_bytes;
+  const uint64_t fine = figuresOf(dracoTriangles(mesh, {.position_bits = 16}, {})).attribute_bytes;
+  const uint64_t exact = figuresOf(dracoTriangles(mesh, {.position_bits = 0}, {})).attribute_bytes;
+  EXPECT_LT(coarse, fine);
+  EXPECT_LT(fine, exact);
+}
+
+TEST(DracoBaseline, PolygonsCostMoreThanTriangles) {
+  const PolygonMesh mesh = meshOf(shapes::mergeFaces(shapes::randomTriangulation(500, 3), 300, 4));
+  EXPECT_GT(figuresOf(dracoPolygons(mesh, {}, {})).total_bytes, figuresOf(dracoTriangles(mesh, {}, {})).total_bytes);
+  const PolygonMesh big_face = meshOf(shapes::prism(40));
+  EXPECT_TRUE(dracoPolygons(big_face, {}, {}).ok());
+}
+
+TEST(DracoBaseline, GivenTriangulationIsUsed) {
+  PolygonMesh mesh = meshOf(shapes::quadGrid(12, 12));
+  const uint64_t fans = figuresOf(dracoTriangles(mesh, {}, {})).total_bytes;
+  shapes::Random random(8);
+  for (Index face = 0; face < mesh.polygons.face_degrees.size(); ++face) {
+    const Index first = 4 * face, turn = random.below(2);
+    mesh.triangulation.counts.push_back(2);
+    for (const Index corner : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.triangulation.corners.push_back(first + (corner + turn) % 4);
+  }
+  EXPECT_NE(figuresOf(dracoTriangles(mesh, {}, {})).connectivity_bytes, 0u);
+  EXPECT_NE(figuresOf(dracoTriangles(mesh, {}, {})).total_bytes, fans);
+}
+
+TEST(DracoBaseline, AllKindsOfAttributes) {
+  PolygonMesh mesh = meshOf(shapes::quadTorus(10, 10));
+  const Index count = mesh.wedge_count;
+  const auto wave = [](Index w, int c) { return std::sin(0.1 * w + c); };
+  mesh.attributes.push_back(floats("NORMAL", 3, count, [](Index w, int c) { return c == 2 ? 0 : c ? std::sin(w) : std::cos(w); }));
+  mesh.attributes.push_back(floats("TANGENT", 4, count, wave));
+  mesh.attributes.push_back(floats("TEXCOORD_0", 2, count, wave));
+  mesh.attributes.push_back(floats("COLOR_0", 4, count, wave));
+  mesh.attributes.push_back(floats("WEIGHTS_0", 4, count, wave));
+  mesh.attributes.push_back(floats("POSITION@0", 3, count, wave));
+  Attribute joints;
+  joints.name = "JOINTS_0";
+  joints.components = 4;
+  joints.type = ComponentType::kUint16;
+  joints.data.resize(size_t{count} * joints.stride(), 3);
+  mesh.attributes.push_back(joints);
+  EXPECT_GT(figuresOf(dracoTriangles(mesh, {}, {})).attribute_bytes, figuresOf(dracoTriangles(meshOf(shapes::quadTorus(10, 10)), {}, {})).attribute_bytes);
+}
+
+TEST(DracoBaseline, EveryShapeIsMeasuredOrRefused) {
+  for (const auto& [name, shape] : shapes::allShapes()) {
+    SCOPED_TRACE(name);
+    const PolygonMesh mesh = meshOf(shape);
+    for (const auto& outcome : {dracoTriangles(mesh, {}, {7, 1}), dracoTriangles(mesh, {}, {}), dracoPolygons(mesh, {}, {})}) {
+      if (outcome.ok()) {
+        EXPECT_GT(outcome->total_bytes, kDracoHeader);
+      } else {
+        EXPECT_EQ(outcome.error().kind, FailureKind::kUnsupported);
+        EXPECT_FALSE(outcome.error().what.empty());
+      }
+    }
+  }
+}
+
+TEST(DracoBaseline, NothingToTriangulateIsRefused) {
+  EXPECT_FALSE(dracoTriangles(PolygonMesh{}, {}, {}).ok());
+  PolygonMesh degenerate = meshOf(shapes::tetrahedron());
+  degenerate.polygons.corners.assign(degenerate.polygons.corners.size(), 0);
+  const auto outcome = dracoTriangles(degenerate, {}, {});
+  ASSERT_FALSE(outcome.ok());
+  EXPECT_NE(outcome.error().what.find("degenerate"), std::string::npos) << outcome.error().what;
+}
+
+}  // namespace
+}  // namespace tutte
