@@ -4,67 +4,13 @@
 #include <array>
 #include <cstring>
 
+#include "codec/end_flags.h"
 #include "codec/model.h"
 #include "codec/range_coder.h"
 #include "codec/umbrella_links.h"
 
 namespace tutte {
 namespace {
-
-/// What is known about one umbrella while its ends are coded.
-struct Around {
-  Index left = 0;      ///< ends that are still to come
-  uint8_t parted = 0;  ///< ends that were 1, up to 2
-  uint8_t open = 0;
-};
-
-/// Codes one flag per edge-end ("the two corners differ"), edge by edge in the order of their first corners. Around a
-/// closed umbrella the flags cannot be 1 exactly once: the last one is implied when it would otherwise be.
-template <class Port>
-class EndFlags {
- public:
-  /// Only ends with candidates[end] == 1 are coded; the others are 0.
-  EndFlags(Port& port, const Connectivity& mesh, const UmbrellaLinks& links, std::span<const uint8_t> candidates)
-      : port_(port), mesh_(mesh), candidates_(candidates), around_(mesh.umbrella_count) {
-    for (Index u = 0; u < mesh.umbrella_count; ++u) around_[u].open = links.open[u];
-    for (Index corner = 0; corner < candidates.size(); ++corner) {
-      if (candidates[corner]) ++around_[mesh.umbrellas[corner]].left;
-    }
-  }
-
-  /// Writer: `flags` are coded. Reader: `flags` are filled in.
-  void code(std::vector<uint8_t>& flags) {
-    for (Index corner = 0; corner < flags.size(); ++corner) {
-      const Index twin = mesh_.twins[corner];
-      if (twin == kNone || twin < corner) continue;
-      if (candidates_[corner]) flags[corner] = end(flags[corner], corner, twin, 0);
-      if (candidates_[twin]) flags[twin] = end(flags[twin], twin, corner, candidates_[corner] ? 1 + flags[corner] : 0);
-    }
-  }
-
- private:
-  uint8_t end(uint8_t flag, Index corner, Index far, int other_end) {
-    Around& here = around_[mesh_.umbrellas[corner]];
-    const Around& there = around_[mesh_.umbrellas[far]];
-    const bool implied = here.left == 1 && !here.open && here.parted < 2;
-    const uint8_t value = implied ? here.parted : model(here, there, other_end).code(port_, flag);
-    here.parted = static_cast<uint8_t>(std::min(here.parted + value, 2));
-    --here.left;
-    return value;
-  }
-
-  Bit& model(const Around& here, const Around& there, int other_end) {
-    const Index left = std::min(here.left, 8u) - 1;
-    const int far_side = std::min<int>(there.parted, 2) * 2 + (there.left <= 2);
-    return models_[(((other_end * 3 + here.parted) * 2 + here.open) * 8 + left) * 6 + far_side];
-  }
-
-  Port& port_;
-  const Connectivity& mesh_;
-  std::span<const uint8_t> candidates_;
-  std::vector<Around> around_;
-  std::array<Bit, 3 * 3 * 2 * 8 * 6> models_;
-};
 
 /// Marks the ends that edges with two faces have.
 std::vector<uint8_t> interiorEnds(const Connectivity& mesh) {

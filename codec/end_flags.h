@@ -1,0 +1,156 @@
+#pragma once
+// Flags at the ends of edges, coded with what is known around both vertices of the edge.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/mesh.h"
+#include "codec/umbrella_links.h"
+#include "codec/value_model.h"
+#include "codec/value_tables.h"
+
+namespace tutte {
+
+/// One binary decision from several contexts: the stretched probabilities that they suggest are weighed, and the
+/// weights learn. Integers only.
+template <size_t kInputs>
+class MixedFlag {
+ public:
+  /// `contexts`: how many each input has; `weight_sets`: how many sets of weights to choose from.
+  MixedFlag(const std::array<uint32_t, kInputs>& contexts, uint32_t weight_sets)
+      : weights_(weight_sets, initialWeights()) {
+    for (size_t i = 0; i < kInputs; ++i) tables_[i].resize(contexts[i]);
+  }
+
+  template <class Port>
+  bool code(Port& port, const std::array<uint32_t, kInputs>& contexts, uint32_t weight_set, bool value) {
+    std::array<int32_t, kInputs>& weights = weights_[weight_set];
+    std::array<int32_t, kInputs> inputs;
+    int64_t sum = 0;
+    for (size_t i = 0; i < kInputs; ++i) {
+      inputs[i] = tables_[i][contexts[i]].trusted();
+      sum += int64_t{inputs[i]} * weights[i];
+    }
+    const int64_t limit = values::kStretchLimit;
+    const int32_t one = values::kSquash[static_cast<size_t>(std::clamp(sum >> 16, -limit, limit) + 2048)];
+    const bool bit = port.code(static_cast<uint32_t>(std::clamp(one, 24, 65512)), value);
+    const int32_t error = ((bit ? 65535 : 0) - one) >> 4;
+    for (size_t i = 0; i < kInputs; ++i) {
+      weights[i] = std::clamp(weights[i] + ((inputs[i] * error + 512) >> 10), -kLargestWeight, kLargestWeight);
+      tables_[i][contexts[i]].update(bit);
+    }
+    return bit;
+  }
+
+ private:
+  static constexpr int32_t kLargestWeight = 1 << 20;
+
+  static std::array<int32_t, kInputs> initialWeights() {
+    std::array<int32_t, kInputs> weights;
+    weights.fill(65536 * 13 / (10 * static_cast<int32_t>(kInputs)));
+    return weights;
+  }
+
+  std::array<std::vector<values::Chance>, kInputs> tables_;
+  std::vector<std::array<int32_t, kInputs>> weights_;
+};
+
+/// Codes one flag per edge-end ("the two corners differ"), edge by edge in the order of their first corners. Around a
+/// closed umbrella the flags cannot be 1 exactly once: the last one is implied when it would otherwise be. O(corners).
+template <class Port>
+class EndFlags {
+ public:
+  /// Only ends with candidates[end] == 1 are coded; the others are 0. All arguments must outlive this object.
+  EndFlags(Port& port, const Connectivity& mesh, const UmbrellaLinks& links, std::span<const uint8_t> candidates)
+      : port_(port), mesh_(mesh), links_(links), candidates_(candidates), around_(mesh.umbrella_count) {
+    for (Index u = 0; u < mesh.umbrella_count; ++u) around_[u].open = links.open[u];
+    for (Index corner = 0; corner < candidates.size(); ++corner) {
+      Around& around = around_[mesh.umbrellas[corner]];
+      around.left += candidates[corner];
+      if (around.corners < kMostCorners) ++around.corners;
+    }
+    quiet_.fill(values::Chance(65536 / 16));
+  }
+
+  /// Writer: `flags` are coded. Reader: `flags` are filled in. One flag per corner.
+  void code(std::vector<uint8_t>& flags) {
+    known_.assign(flags.size(), 0);
+    for (Index corner = 0; corner < flags.size(); ++corner) {
+      const Index twin = mesh_.twins[corner];
+      if (twin == kNone || twin < corner) continue;
+      if (candidates_[corner]) flags[corner] = end(corner, twin, flags[corner]);
+      if (candidates_[twin]) flags[twin] = end(twin, corner, flags[twin]);
+    }
+  }
+
+ private:
+  static constexpr uint8_t kMostCorners = 7;
+
+  /// What is known about one umbrella.
+  struct Around {
+    Index left = 0;      ///< ends that are still to come
+    uint8_t parted = 0;  ///< ends that were 1, up to 2
+    uint8_t open = 0;
+    uint8_t corners = 0;  ///< up to kMostCorners
+  };
+
+  uint8_t end(Index corner, Index far, uint8_t flag) {
+    Around& here = around_[mesh_.umbrellas[corner]];
+    const Around& there = around_[mesh_.umbrellas[far]];
+    if (here.left == 1 && !here.open && here.parted < 2) {
+      flag = here.parted;
+    } else if (here.parted == 0 && there.parted == 0) {
+      flag = quiet(here, there, known_[far]).code(port_, flag);
+    } else {
+      flag = mixed_.code(port_, contextsOf(corner, far, here, there), known_[far], flag);
+    }
+    here.parted = static_cast<uint8_t>(std::min(here.parted + flag, 2));
+    --here.left;
+    known_[corner] = static_cast<uint8_t>(1 + flag);
+    return flag;
+  }
+
+  /// Far from all seams one plain context is enough, and fast.
+  values::Chance& quiet(const Around& here, const Around& there, int other) {
+    return quiet_[((other * 2 + here.open) * 2 + (here.left <= 2)) * 2 + (there.left <= 2)];
+  }
+
+  std::array<uint32_t, 4> contextsOf(Index corner, Index far, const Around& here, const Around& there) const {
+    const Index after = links_.across[corner], before = links_.back[corner];
+    const uint32_t sides = known(after) * 3 + known(before);
+    const uint32_t next_but_one = known(across(after)) * 3 + known(back(before));
+    const uint32_t far_sides = known(links_.across[far]) * 3 + known(links_.back[far]);
+    const uint32_t straight = opposite(corner, here) * 3 + opposite(far, there);
+    const uint32_t seen = known_[far] * 9 + here.parted * 3 + there.parted;
+    const uint32_t corners = std::max<uint32_t>(here.corners, 3) - 3;
+    const uint32_t room = (std::min(here.left, 8u) - 1) * 8 + std::min(there.left, 7u);
+    return {((sides * 9 + next_but_one) * 5 + corners) * 27 + seen, straight * 27 + seen, room * 27 + seen,
+            (far_sides * 9 + sides) * 9 + known_[far] * 3 + here.parted};
+  }
+
+  /// 0: not known (or no end); 1 or 2: the flag was 0 or 1.
+  uint32_t known(Index end) const { return end == kNone ? 0 : known_[end]; }
+  Index across(Index end) const { return end == kNone ? kNone : links_.across[end]; }
+  Index back(Index end) const { return end == kNone ? kNone : links_.back[end]; }
+
+  /// The end that continues an edge straight through a vertex with four corners.
+  uint32_t opposite(Index end, const Around& here) const {
+    if (here.corners != 4) return 0;
+    const Index forwards = across(across(end));
+    return known(forwards != kNone ? forwards : back(back(end)));
+  }
+
+  Port& port_;
+  const Connectivity& mesh_;
+  const UmbrellaLinks& links_;
+  std::span<const uint8_t> candidates_;
+  std::vector<Around> around_;
+  std::vector<uint8_t> known_;
+  std::array<values::Chance, 16> quiet_;
+  MixedFlag<4> mixed_{{81 * 5 * 27, 9 * 27, 64 * 27, 81 * 9}, 3};
+};
+
+}  // namespace tutte
