@@ -68,8 +68,8 @@ TEST(DracoBaseline, EqualPositionsAreWelded) {
   PolygonMesh welded = meshOf(shape), cut = welded;
   // Every corner becomes a vertex of its own.
   const Index corners = static_cast<Index>(cut.polygons.corners.size());
-  cut.attributes[0] = floats("POSITION", 3, corners,
-                             [&](Index w, int c) { return shape.positions[shape.mesh.corners[w]][c]; });
+  cut.attributes[0] =
+      floats("POSITION", 3, corners, [&](Index w, int c) { return shape.positions[shape.mesh.corners[w]][c]; });
   for (Index c = 0; c < corners; ++c) cut.polygons.corners[c] = c;
   cut.polygons.vertex_count = cut.wedge_count = corners;
   EXPECT_EQ(figuresOf(dracoTriangles(welded, {}, {})).total_bytes, figuresOf(dracoTriangles(cut, {}, {})).total_bytes);
@@ -98,7 +98,8 @@ TEST(DracoBaseline, GivenTriangulationIsUsed) {
   for (Index face = 0; face < mesh.polygons.face_degrees.size(); ++face) {
     const Index first = 4 * face, turn = random.below(2);
     mesh.triangulation.counts.push_back(2);
-    for (const Index corner : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.triangulation.corners.push_back(first + (corner + turn) % 4);
+    for (const Index corner : {0u, 1u, 2u, 0u, 2u, 3u})
+      mesh.triangulation.corners.push_back(first + (corner + turn) % 4);
   }
   EXPECT_NE(figuresOf(dracoTriangles(mesh, {}, {})).connectivity_bytes, 0u);
   EXPECT_NE(figuresOf(dracoTriangles(mesh, {}, {})).total_bytes, fans);
@@ -108,7 +109,9 @@ TEST(DracoBaseline, AllKindsOfAttributes) {
   PolygonMesh mesh = meshOf(shapes::quadTorus(10, 10));
   const Index count = mesh.wedge_count;
   const auto wave = [](Index w, int c) { return std::sin(0.1 * w + c); };
-  mesh.attributes.push_back(floats("NORMAL", 3, count, [](Index w, int c) { return c == 2 ? 0 : c ? std::sin(w) : std::cos(w); }));
+  mesh.attributes.push_back(floats("NORMAL", 3, count, [](Index w, int c) {
+    return c == 2 ? 0 : c ? std::sin(w) : std::cos(w);
+  }));
   mesh.attributes.push_back(floats("TANGENT", 4, count, wave));
   mesh.attributes.push_back(floats("TEXCOORD_0", 2, count, wave));
   mesh.attributes.push_back(floats("COLOR_0", 4, count, wave));
@@ -120,14 +123,16 @@ TEST(DracoBaseline, AllKindsOfAttributes) {
   joints.type = ComponentType::kUint16;
   joints.data.resize(size_t{count} * joints.stride(), 3);
   mesh.attributes.push_back(joints);
-  EXPECT_GT(figuresOf(dracoTriangles(mesh, {}, {})).attribute_bytes, figuresOf(dracoTriangles(meshOf(shapes::quadTorus(10, 10)), {}, {})).attribute_bytes);
+  EXPECT_GT(figuresOf(dracoTriangles(mesh, {}, {})).attribute_bytes,
+            figuresOf(dracoTriangles(meshOf(shapes::quadTorus(10, 10)), {}, {})).attribute_bytes);
 }
 
 TEST(DracoBaseline, EveryShapeIsMeasuredOrRefused) {
   for (const auto& [name, shape] : shapes::allShapes()) {
     SCOPED_TRACE(name);
     const PolygonMesh mesh = meshOf(shape);
-    for (const auto& outcome : {dracoTriangles(mesh, {}, {7, 1}), dracoTriangles(mesh, {}, {}), dracoPolygons(mesh, {}, {})}) {
+    for (const auto& outcome :
+         {dracoTriangles(mesh, {}, {7, 1}), dracoTriangles(mesh, {}, {}), dracoPolygons(mesh, {}, {})}) {
       if (outcome.ok()) {
         EXPECT_GT(outcome->total_bytes, kDracoHeader);
       } else {

@@ -1,0 +1,194 @@
+// The built command: exit codes, messages, files.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/scratch.h"
+
+namespace tutte {
+namespace {
+
+/// A house: quads, a pentagon on both sides, an isolated vertex, texture coordinates with seams.
+const char* const kHouse =
+    "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 3 0\nv 0 2 0\nv 0 0 4\nv 2 0 4\nv 2 2 4\nv 1 3 4\nv 0 2 4\nv 7 7 7\n"
+    "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 0.5 1\n"
+    "usemtl wall\nf 5/1 4/2 3/3 2/4 1/5\nf 6/1 7/2 8/3 9/4 10/5\nf 1/1 2/2 7/3 6/4\nf 2/1 3/2 8/3 7/4\nusemtl roof\n"
+    "f 3/1 4/2 9/3 8/4\nf 4/1 5/2 10/3 9/4\nf 5/1 1/2 6/3 10/4\n";
+
+class Command : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return "'" + (scratch_ / name).string() + "'"; }
+  Finished tutte(const std::string& arguments) const { return runTutte(scratch_, arguments); }
+
+  void expectCode(const Finished& finished, int code) const {
+    EXPECT_EQ(finished.code, code) << finished.out << finished.err;
+    if (code == 0) return;
+    // tutte: <file>: <place>: <what>; <remedy>
+    EXPECT_TRUE(finished.err.starts_with("tutte: ")) << finished.err;
+    EXPECT_NE(finished.err.find("; "), std::string::npos) << "no remedy: " << finished.err;
+  }
+
+  Scratch scratch_;
+  std::string house_ = "'" + scratch_.write("house.obj", kHouse) + "'";
+};
+
+TEST_F(Command, HelpEverywhere) {
+  const Finished all = tutte("--help");
+  EXPECT_EQ(all.code, 0);
+  for (const std::string name : {"encode", "decode", "inspect", "validate", "verify", "bench", "trace"}) {
+    EXPECT_NE(all.out.find(name), std::string::npos);
+    const Finished help = tutte(name + " --help");
+    EXPECT_EQ(help.code, 0);
+    EXPECT_NE(help.out.find("Examples:"), std::string::npos) << help.out;
+  }
+  EXPECT_EQ(tutte("--version").code, 0);
+}
+
+TEST_F(Command, WrongUsageIsOne) {
+  expectCode(tutte(""), 1);
+  expectCode(tutte("frobnicate"), 1);
+  expectCode(tutte("encode"), 1);
+  expectCode(tutte("encode --qp 99 " + house_ + " " + path("a.glb")), 1);
+  expectCode(tutte("encode --qp x " + house_ + " " + path("a.glb")), 1);
+  expectCode(tutte("encode --polygons some " + house_ + " " + path("a.glb")), 1);
+  expectCode(tutte("encode " + house_ + " " + path("a.obj")), 1);
+  expectCode(tutte("verify --tolerance -1 " + house_ + " " + house_), 1);
+  EXPECT_EQ(scratch_.fileCount(), 1u);
+}
+
+TEST_F(Command, InvalidInputIsTwo) {
+  const std::string broken = "'" + scratch_.write("broken.obj", "v 0 0 0\nf 1 2 3\n") + "'";
+  const Finished finished = tutte("encode " + broken + " " + path("a.glb"));
+  expectCode(finished, 2);
+  EXPECT_NE(finished.err.find("broken.obj: line 2: "), std::string::npos) << finished.err;
+  const std::string text = "'" + scratch_.write("text.glb", "this is no glTF") + "'";
+  expectCode(tutte("decode " + text + " " + path("a.obj")), 2);
+  expectCode(tutte("inspect " + text), 2);
+  expectCode(tutte("validate " + text), 2);
+  expectCode(tutte("trace " + text), 2);
+  expectCode(tutte("bench " + broken), 2);
+  EXPECT_EQ(scratch_.fileCount(), 3u);
+}
+
+TEST_F(Command, UnsupportedInputIsThree) {
+  const std::string plain = "'" + scratch_.write("plain.gltf", R"({"asset":{"version":"2.0"}})") + "'";
+  expectCode(tutte("inspect " + plain), 3);
+  expectCode(tutte("trace " + plain), 3);
+}
+
+TEST_F(Command, DifferencesAreFour) {
+  const std::string other = "'" + scratch_.write("other.obj", std::string(kHouse) + "f 1 2 3\n") + "'";
+  expectCode(tutte("verify " + house_ + " " + other), 4);
+  expectCode(tutte("verify " + house_ + " " + house_), 0);
+}
+
+TEST_F(Command, FilesThatCannotBeReadOrWrittenAreFive) {
+  expectCode(tutte("encode " + path("none.obj") + " " + path("a.glb")), 5);
+  expectCode(tutte("decode " + path("none.glb") + " " + path("a.obj")), 5);
+  expectCode(tutte("verify " + path("none.glb") + " " + house_), 5);
+  const Finished finished = tutte("encode " + house_ + " " + path("no/such/folder/a.glb"));
+  expectCode(finished, 5);
+  EXPECT_NE(finished.err.find("no/such/folder"), std::string::npos);
+  EXPECT_EQ(scratch_.fileCount(), 1u);
+}
+
+TEST_F(Command, ThereAndBack) {
+  expectCode(tutte("encode " + house_ + " " + path("house.glb")), 0);
+  expectCode(tutte("validate " + path("house.glb")), 0);
+  expectCode(tutte("verify " + house_ + " " + path("house.glb")), 0);
+  for (const std::string name : {"back.obj", "back.ply"}) {
+    expectCode(tutte("decode " + path("house.glb") + " " + path(name)), 0);
+    expectCode(tutte("verify " + house_ + " " + path(name)), 0);
+    expectCode(tutte("verify --qp 0 --qt 0 " + path("house.glb") + " " + path(name)), 0);
+  }
+  for (const std::string name : {"plain.glb", "plain.gltf"}) {
+    expectCode(tutte("decode " + path("house.glb") + " " + path(name)), 0);
+    expectCode(tutte("encode " + path(name) + " " + path("again.glb")), 0);
+    expectCode(tutte("validate " + path("again.glb")), 0);
+  }
+}
+
+TEST_F(Command, LosslessIsExact) {
+  expectCode(tutte("encode --qp 0 --qt 0 --qn 0 --polygons both --fallback " + house_ + " " + path("house.gltf")), 0);
+  expectCode(tutte("verify --qp 0 --qt 0 " + house_ + " " + path("house.gltf")), 0);
+}
+
+TEST_F(Command, CoarserThanVerifiedIsDifferent) {
+  expectCode(tutte("encode --qp 4 " + house_ + " " + path("house.glb")), 0);
+  expectCode(tutte("verify --qp 4 " + house_ + " " + path("house.glb")), 0);
+}
+
+TEST_F(Command, AttributesCanBeLeftOut) {
+  expectCode(tutte("encode --attributes POSITION " + house_ + " " + path("house.glb")), 0);
+  expectCode(tutte("verify " + house_ + " " + path("house.glb")), 4);
+  expectCode(tutte("verify --attributes POSITION " + house_ + " " + path("house.glb")), 0);
+}
+
+TEST_F(Command, InspectCountsEveryByte) {
+  expectCode(tutte("encode " + house_ + " " + path("house.glb")), 0);
+  const Finished finished = tutte("inspect --json " + path("house.glb"));
+  expectCode(finished, 0);
+  const auto json = nlohmann::json::parse(finished.out);
+  const auto& payload = json.at("payloads").at(0);
+  EXPECT_EQ(payload.at("vertices"), 11);
+  EXPECT_EQ(payload.at("faces"), 7);
+  EXPECT_EQ(payload.at("edges"), 15);
+  EXPECT_EQ(payload.at("groups"), 2);
+  EXPECT_EQ(payload.at("attributes").size(), 2u);
+  size_t bytes = 0;
+  for (const auto& section : payload.at("sections")) {
+    bytes += section.at("bytes").get<size_t>();
+    size_t inner = 0;
+    if (!section.contains("streams")) continue;
+    for (const auto& stream : section.at("streams")) inner += stream.at("bytes").get<size_t>();
+    EXPECT_EQ(inner, section.at("bytes"));
+  }
+  EXPECT_EQ(bytes, payload.at("byteLength"));
+  EXPECT_NE(tutte("inspect " + path("house.glb")).out.find("CONNECTIVITY"), std::string::npos);
+}
+
+TEST_F(Command, TracePrintsALinePerSymbol) {
+  expectCode(tutte("encode " + house_ + " " + path("house.glb")), 0);
+  const Finished finished = tutte("trace " + path("house.glb"));
+  expectCode(finished, 0);
+  EXPECT_NE(finished.out.find("degree 5"), std::string::npos);
+  EXPECT_NE(finished.out.find("valence 3"), std::string::npos);
+  EXPECT_NE(finished.out.find("end"), std::string::npos);
+}
+
+TEST_F(Command, BenchHasEveryField) {
+  const Finished finished = tutte("bench --json --seconds 0 " + house_);
+  expectCode(finished, 0);
+  const auto json = nlohmann::json::parse(finished.out);
+  for (const char* field :
+       {"file", "vertices", "faces", "splits", "connectivity_bytes", "valence_bytes", "degree_bytes", "bits_per_vertex",
+        "attribute_bytes", "total_bytes", "encode_seconds", "decode_seconds", "connectivity_decode_seconds",
+        "draco_cl7", "draco_cl10", "draco_polygons_total_bytes", "glb_bytes", "paper_bytes"}) {
+    EXPECT_TRUE(json.contains(field)) << field;
+  }
+  for (const char* draco : {"draco_cl7", "draco_cl10"}) {
+    for (const char* field : {"connectivity_bytes", "attribute_bytes", "total_bytes", "encode_seconds",
+                              "decode_seconds", "connectivity_decode_seconds"}) {
+      EXPECT_TRUE(json.at(draco).contains(field)) << field;
+    }
+  }
+  EXPECT_EQ(json.at("faces"), 7);
+  const Finished table = tutte("bench --seconds 0 --attributes POSITION " + house_);
+  expectCode(table, 0);
+  EXPECT_NE(table.out.find("sum"), std::string::npos);
+}
+
+TEST_F(Command, DamagedFilesAreRefused) {
+  expectCode(tutte("encode " + house_ + " " + path("house.glb")), 0);
+  std::string bytes = contentsOf(scratch_ / "house.glb");
+  bytes[bytes.size() - 20] = static_cast<char>(bytes[bytes.size() - 20] ^ 0x10);
+  scratch_.write("damaged.glb", bytes);
+  const Finished finished = tutte("decode " + path("damaged.glb") + " " + path("back.obj"));
+  expectCode(finished, 2);
+  EXPECT_NE(finished.err.find("damaged.glb"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "back.obj"));
+}
+
+}  // namespace
+}  // namespace tutte
