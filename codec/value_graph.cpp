@@ -158,6 +158,15 @@ class Partition {
     parent_[std::max(a, b)] = std::min(a, b);
   }
 
+  WedgeSites number() && {
+    WedgeSites sites{std::vector<Index>(parent_.size()), 0};
+    for (Index w = 0; w < parent_.size(); ++w) {
+      const Index smallest = find(w);
+      sites.site_of[w] = smallest == w ? sites.count++ : sites.site_of[smallest];
+    }
+    return sites;
+  }
+
  private:
   std::vector<Index> parent_;
 };
@@ -186,12 +195,18 @@ WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, I
     }
     begin += degree;
   }
-  WedgeSites sites{std::vector<Index>(wedge_count), 0};
-  for (Index w = 0; w < wedge_count; ++w) {
-    const Index smallest = partition.find(w);
-    sites.site_of[w] = smallest == w ? sites.count++ : sites.site_of[smallest];
+  return std::move(partition).number();
+}
+
+WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count) {
+  Partition partition(wedge_count);
+  std::vector<Index> wedge_of(mesh.vertex_count, kNone);
+  for (Index c = 0; c < wedges.size(); ++c) {
+    Index& wedge = wedge_of[mesh.vertexOf(c)];
+    if (wedge == kNone) wedge = wedges[c];
+    if (wedge != wedges[c]) partition.join(wedge, wedges[c]);
   }
-  return sites;
+  return std::move(partition).number();
 }
 
 std::vector<Index> valueOrder(const ValueGraph& graph) { return Orderer(graph).run(); }

@@ -34,15 +34,19 @@ struct ValueGraph {
 /// `sites` holds a number below `site_count` per corner. O(corners).
 ValueGraph buildValueGraph(const Connectivity& mesh, std::vector<Index> sites, Index site_count);
 
-/// Sites whose value is shared because no seam parts their wedges. `wedges` are per corner, below `wedge_count`;
-/// `seams` is per corner, 1 where the edge to the next corner is a seam, or empty. Returns the site of each wedge,
-/// numbered by the smallest wedge, and their number. O(corners).
+/// The site of each wedge, numbered by the smallest wedge.
 struct WedgeSites {
-  std::vector<Index> site_of;  ///< per wedge
+  std::vector<Index> site_of;
   Index count = 0;
 };
+
+/// Joins wedges that no seam parts: those of two faces that meet in an edge which is no seam. `wedges` are per corner,
+/// below `wedge_count`; `seams` is per corner, 1 where the edge to the next corner is a seam, or empty. O(corners).
 WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
                       std::span<const uint8_t> seams);
+
+/// Joins all wedges of a vertex. O(corners).
+WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count);
 
 /// The order in which values are coded: always one of the sites with the most known surroundings, so that most values
 /// are predicted by several parallelograms. A function of the graph alone. O(corners).

@@ -5,11 +5,12 @@
 
 #include "gltf_ext/attribute_coding.h"
 #include "gltf_ext/draco_planes.h"
+#include "gltf_ext/value_planes.h"
 
 namespace tutte {
 namespace {
 
-constexpr uint8_t kDracoCoder = 0;
+constexpr uint8_t kDracoCoder = 0, kValueCoder = 1;
 constexpr uint32_t kMaxAttributes = 4096;
 constexpr int kMaxBits = 24;
 
@@ -21,6 +22,7 @@ constexpr int kComponentShift = 3;
 constexpr uint8_t kNormalizedFlag = 1 << 5;
 
 struct Head {
+  uint8_t coder = kDracoCoder;
   std::vector<Attribute> attributes;  ///< without data
   std::vector<AttributeCoding> codings;
   std::vector<Plane> planes;          ///< of all attributes, without values
@@ -65,10 +67,12 @@ bool readAttribute(ByteReader& in, Head& head) {
 }
 
 Outcome<Head> readHead(ByteReader& in) {
-  if (in.byte() != kDracoCoder) return damaged("the attribute section has an unknown coder");
+  const uint8_t coder = in.byte();
+  if (coder > kValueCoder) return damaged("the attribute section has an unknown coder");
   const uint32_t count = in.varint();
   if (in.error() != Error::kNone || count > kMaxAttributes) return damaged("the attribute section's head is damaged");
   Head head;
+  head.coder = coder;
   for (uint32_t i = 0; i < count; ++i) {
     if (!readAttribute(in, head)) return damaged("an attribute's description is damaged");
   }
@@ -97,11 +101,37 @@ Outcome<Done> checkOptions(const PackOptions& options) {
   return Done{};
 }
 
+struct Stream {
+  uint8_t coder;
+  std::vector<uint8_t> bytes;
+};
+
+Outcome<Stream> encodeStream(const AttributeTopology& topology, std::span<const Plane> planes,
+                             const PackOptions& options) {
+  if (options.attribute_coder == AttributeCoder::kDraco) {
+    auto bytes = encodePlanes(topology, planes);
+    if (!bytes) return bytes.error();
+    return Stream{kDracoCoder, *std::move(bytes)};
+  }
+  auto bytes = encodeValuePlanes(topology, planes, options.value_profile);
+  if (!bytes) return bytes.error();
+  Stream own{kValueCoder, *std::move(bytes)};
+  if (options.attribute_coder == AttributeCoder::kTutte) return own;
+  // What Draco cannot code at all is no reason to fail.
+  auto draco = encodePlanes(topology, planes);
+  if (draco && draco->size() < own.bytes.size()) return Stream{kDracoCoder, *std::move(draco)};
+  return own;
+}
+
+bool decodeStream(const AttributeTopology& topology, std::span<const uint8_t> bytes, Head& head) {
+  return head.coder == kDracoCoder ? decodePlanes(topology, bytes, head.planes)
+                                   : decodeValuePlanes(topology, bytes, head.planes);
+}
+
 Outcome<std::vector<uint8_t>> encode(const AttributeTopology& topology, std::span<const Attribute> attributes,
                                      const PackOptions& options) {
   Head head;
   ByteWriter out;
-  out.byte(kDracoCoder);
   out.varint(static_cast<uint32_t>(attributes.size()));
   for (const Attribute& attribute : attributes) {
     const size_t index = head.codings.size();
@@ -111,10 +141,12 @@ Outcome<std::vector<uint8_t>> encode(const AttributeTopology& topology, std::spa
     splitValues(attribute, head.codings[index], planes);
     std::ranges::move(planes, std::back_inserter(head.planes));
   }
-  auto stream = encodePlanes(topology, head.planes);
+  auto stream = encodeStream(topology, head.planes, options);
   if (!stream) return stream.error();
-  out.append(*stream);
-  return std::move(out).take();
+  out.append(stream->bytes);
+  std::vector<uint8_t> section = std::move(out).take();
+  section.insert(section.begin(), stream->coder);
+  return section;
 }
 
 }  // namespace
@@ -144,8 +176,8 @@ Outcome<std::vector<Attribute>> decodeAttributes(const AttributeTopology& topolo
   ByteReader in(bytes);
   auto head = readHead(in);
   if (!head) return head.error();
-  if (!decodePlanes(topology, in.take(in.remaining()), head->planes)) return damaged("the attribute stream is damaged");
   try {
+    if (!decodeStream(topology, in.take(in.remaining()), *head)) return damaged("the attribute stream is damaged");
     for (size_t i = 0; i < head->attributes.size(); ++i) {
       const std::span<Plane> planes = head->planesOf(i);
       if (!joinValues(planes, head->codings[i], topology.wedge_count, head->attributes[i])) {

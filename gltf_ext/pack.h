@@ -5,10 +5,18 @@
 #include <span>
 #include <vector>
 
+#include "codec/values.h"
 #include "gltf_ext/failure.h"
 #include "gltf_ext/polygon_mesh.h"
 
 namespace tutte {
+
+/// Who codes the attributes' numbers.
+enum class AttributeCoder : uint8_t {
+  kAuto,   ///< whichever takes fewer bytes
+  kDraco,  ///< Draco's predictors and entropy coder over our connectivity
+  kTutte,  ///< the codec's own predictors, which know polygons, and adaptive coder (codec/values.h)
+};
 
 /// Quantisation in bits per component; 0 keeps an attribute as it is, without loss. Integer attributes, JOINTS and
 /// WEIGHTS are always coded without loss.
@@ -18,6 +26,8 @@ struct PackOptions {
   int texcoord_bits = 12;
   int color_bits = 8;
   int generic_bits = 12;  ///< custom float attributes and morph-target deltas of anything but positions
+  AttributeCoder attribute_coder = AttributeCoder::kAuto;
+  ValueProfile value_profile = ValueProfile::kDefault;  ///< of kTutte
 };
 
 /// A payload and how it relates to the mesh that it was made from.

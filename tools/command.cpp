@@ -2,6 +2,7 @@
 
 #include <cstdarg>
 #include <cstdio>
+#include <map>
 
 #include "gltf_ext/extension.h"
 #include "gltf_ext/files.h"
@@ -22,6 +23,12 @@ void addQuantization(CLI::App& command, PackOptions& options) {
   add("--qt", options.texcoord_bits, "texture coordinates");
   add("--qc", options.color_bits, "colours");
   add("--qg", options.generic_bits, "other attributes");
+  const std::map<std::string, AttributeCoder> coders{
+      {"auto", AttributeCoder::kAuto}, {"draco", AttributeCoder::kDraco}, {"tutte", AttributeCoder::kTutte}};
+  command.add_option("--attribute-coder", options.attribute_coder, "who codes the attributes; auto keeps the smaller")
+      ->transform(CLI::CheckedTransformer(coders))
+      ->default_str("auto")
+      ->group("Quantisation");
 }
 
 void addAttributes(CLI::App& command, std::vector<std::string>& names) {
