@@ -10,6 +10,7 @@ endfunction()
 
 file(REMOVE_RECURSE ${build}/package)
 run(${CMAKE_COMMAND} --install ${build} --prefix ${prefix})
-run(${CMAKE_COMMAND} -S ${source} -B ${build}/package/consumer -D CMAKE_PREFIX_PATH=${prefix} -D WITH_GLTF=${gltf})
+run(${CMAKE_COMMAND} -S ${source} -B ${build}/package/consumer -D CMAKE_PREFIX_PATH=${prefix} -D WITH_GLTF=${gltf}
+    -D README=${source}/../../README.md)
 run(${CMAKE_COMMAND} --build ${build}/package/consumer)
 run(${build}/package/consumer/consumer)

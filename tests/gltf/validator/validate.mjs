@@ -43,7 +43,7 @@ async function checkModel(input) {
     const name = `${basename(dirname(input))}-${basename(input, extname(input))}-${variant}`;
     const encoded = join(output, `${name}.glb`), decoded = join(output, `${name}-decoded.glb`);
     const run = spawnSync(tutte, ['encode', input, encoded, ...options], {encoding: 'utf8'});
-    if (run.status === 2 || run.status === 3) {
+    if ([2, 3, 5].includes(run.status)) {  // invalid, unsupported, or a file is missing
       refusals.push(`${input} (${run.status}): ${run.stderr.trim().split('\n')[0]}`);
       return;
     }
