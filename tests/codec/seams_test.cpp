@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "codec/wedges.h"
 #include "tests/codec/overlays.h"
@@ -118,6 +119,40 @@ TEST(Seams, CostNextToNothingWhereThereAreNone) {
   const Result<WedgeNumbering> numbering = numberWedges(mesh, wedges, mesh.vertex_count + 1);
   ASSERT_TRUE(numbering.ok());
   EXPECT_LE(encodeSeams(mesh, numbering->wedges, {}).size(), 20u);
+}
+
+/// A closed manifold mesh in its own order, without the connectivity coder.
+Connectivity inItsOwnOrder(const Polygons& polygons) {
+  Connectivity mesh;
+  mesh.face_degrees = polygons.face_degrees;
+  mesh.umbrellas = polygons.corners;
+  mesh.umbrella_count = mesh.vertex_count = polygons.vertex_count;
+  std::map<std::pair<Index, Index>, Index> edges;
+  std::vector<Index> ends;
+  Index first = 0;
+  for (const Index degree : mesh.face_degrees) {
+    for (Index i = 0; i < degree; ++i) {
+      ends.push_back(mesh.umbrellas[first + (i + 1) % degree]);
+      edges[{mesh.umbrellas[first + i], ends.back()}] = first + i;
+    }
+    first += degree;
+  }
+  for (Index corner = 0; corner < ends.size(); ++corner) {
+    mesh.twins.push_back(edges.at({ends[corner], mesh.umbrellas[corner]}));
+  }
+  return mesh;
+}
+
+TEST(Seams, GoldenBytes) {
+  const Connectivity cube = inItsOwnOrder(shapes::cube().mesh);
+  const Result<WedgeNumbering> apart = numberWedges(cube, overlays::wedgesByColour(cube, 0, 1, 0), 24);
+  EXPECT_EQ(encodeSeams(cube, apart->wedges, {}), (Bytes{0x00, 0x00, 0x30}));
+  std::vector<Index> one_more = withoutSeams(cube, 0).wedges;
+  one_more[0] = 8;
+  const Result<WedgeNumbering> cut = numberWedges(cube, one_more, 9);
+  const Bytes data = {0, 1, 0, 0, 0, 0, 0, 0, 0};
+  const std::vector<ValueView> views(2, ValueView{data, 1});
+  EXPECT_EQ(encodeSeams(cube, cut->wedges, views), (Bytes{0x0E, 0x50}));
 }
 
 void expectHarmless(const Connectivity& mesh, std::span<const uint8_t> bytes) {
