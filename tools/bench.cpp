@@ -174,7 +174,7 @@ Outcome<BenchFigures> measure(const std::string& file, Scene scene, const PackOp
         return attribute.name != "POSITION" && !attributes.count(attribute.name);
       });
     }
-    triangulate(mesh.mesh);
+    triangulate(mesh.mesh, codedFirstCorners(mesh.mesh.polygons));
     const Outcome<BenchFigures> one = MeshBench(mesh.mesh, options, seconds).run();
     if (!one) return one.error();
     figures += *one;

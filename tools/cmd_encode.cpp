@@ -40,7 +40,7 @@ struct Encode {
     Outcome<Imported> imported = importScene(input);
     if (!imported) return imported.error();
     for (const std::string& warning : imported->warnings) printWarning(input, warning);
-    for (SceneMesh& mesh : imported->scene.meshes) triangulate(mesh.mesh);
+    for (SceneMesh& mesh : imported->scene.meshes) triangulate(mesh.mesh, codedFirstCorners(mesh.mesh.polygons));
     return sceneToAsset(imported->scene, options);
   }
 

@@ -38,7 +38,7 @@ Outcome<Compressed> encodeFile(const std::filesystem::path& path, const Scene& s
     return compress(*asset);
   }
   Scene triangulated = scene;
-  for (SceneMesh& mesh : triangulated.meshes) triangulate(mesh.mesh);
+  for (SceneMesh& mesh : triangulated.meshes) triangulate(mesh.mesh, codedFirstCorners(mesh.mesh.polygons));
   return sceneToAsset(triangulated);
 }
 
