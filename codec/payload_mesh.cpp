@@ -1,0 +1,112 @@
+#include "codec/payload_mesh.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "codec/decode.h"
+#include "codec/face_groups.h"
+
+namespace tutte {
+namespace {
+
+// Each step decodes one section into `mesh`.
+
+// While it decodes, the walk knows dummy faces too; their corners are no more than the real ones.
+Limits walkLimits(const PayloadCounts& counts) {
+  return {counts.vertices, counts.faces,
+          static_cast<Index>(std::min<uint64_t>(uint64_t{2} * counts.corners, kNone - 1))};
+}
+
+Error decodeConnectivity(const PayloadView& payload, PayloadMesh& mesh) {
+  const PayloadCounts& counts = payload.counts;
+  Result<Connectivity> connectivity = decode(payload[Section::kConnectivity], walkLimits(counts));
+  if (!connectivity) return connectivity.error();
+  mesh.connectivity = *std::move(connectivity);
+  mesh.polygons = polygonsOf(mesh.connectivity, &mesh.coded_corners);
+  const bool as_claimed = mesh.polygons.vertex_count == counts.vertices &&
+                          mesh.polygons.face_degrees.size() == counts.faces &&
+                          mesh.polygons.corners.size() == counts.corners;
+  return as_claimed ? Error::kNone : Error::kCountMismatch;
+}
+
+Error decodeWedges(const PayloadView& payload, PayloadMesh& mesh) {
+  if (!payload.has(Section::kSeams)) {
+    mesh.seams = withoutSeams(mesh.connectivity, payload.counts.attributes);
+    return Error::kNone;
+  }
+  Result<Seams> seams = decodeSeams(mesh.connectivity, payload[Section::kSeams], payload.counts.attributes);
+  if (!seams) return seams.error();
+  mesh.seams = *std::move(seams);
+  if (mesh.seams.wedge_count != payload.counts.wedges) return Error::kCountMismatch;
+  mesh.wedges.reserve(mesh.coded_corners.size());
+  for (const Index corner : mesh.coded_corners) mesh.wedges.push_back(mesh.seams.wedges[corner]);
+  return Error::kNone;
+}
+
+Error decodeFaceGroups(const PayloadView& payload, PayloadMesh& mesh) {
+  if (!payload.has(Section::kGroups)) return Error::kNone;
+  Result<std::vector<Index>> groups = decodeGroups(mesh.connectivity, payload[Section::kGroups], payload.counts.groups);
+  if (!groups) return groups.error();
+  mesh.groups = *std::move(groups);
+  return Error::kNone;
+}
+
+Error decodeRingOwners(const PayloadView& payload, PayloadMesh& mesh) {
+  if (!payload.has(Section::kRings)) return Error::kNone;
+  Result<std::vector<Index>> owners = decodeRings(payload[Section::kRings], payload.counts.faces);
+  if (!owners) return owners.error();
+  if (!ringsAreValid(*owners, mesh.groups)) return Error::kMalformed;
+  mesh.ring_owners = *std::move(owners);
+  return Error::kNone;
+}
+
+Error decodeTriangles(const PayloadView& payload, PayloadMesh& mesh) {
+  if (!payload.has(Section::kTriangulation)) {
+    mesh.triangulation = fanTriangulation(mesh.polygons, mesh.ring_owners);
+  } else {
+    Result<Triangulation> triangles = decodeTriangulation(mesh.connectivity, mesh.ring_owners,
+                                                          payload[Section::kTriangulation], payload.counts.triangles);
+    if (!triangles) return triangles.error();
+    mesh.triangulation = *std::move(triangles);
+  }
+  const bool as_claimed = mesh.triangulation.corners.size() == uint64_t{3} * payload.counts.triangles;
+  return as_claimed ? Error::kNone : Error::kCountMismatch;
+}
+
+struct Step {
+  Section section;
+  Error (*decode)(const PayloadView&, PayloadMesh&);
+};
+
+// In the order in which they need each other.
+constexpr Step kSteps[] = {
+    {Section::kConnectivity, decodeConnectivity}, {Section::kSeams, decodeWedges},
+    {Section::kGroups, decodeFaceGroups},         {Section::kRings, decodeRingOwners},
+    {Section::kTriangulation, decodeTriangles},
+};
+
+}  // namespace
+
+bool isWithin(const PayloadCounts& counts, const Limits& limits) {
+  return counts.vertices <= limits.max_vertices && counts.wedges <= limits.max_corners &&
+         counts.faces <= limits.max_faces && counts.corners <= limits.max_corners &&
+         counts.triangles <= limits.max_corners;
+}
+
+ArraySource PayloadMesh::arraySource() const {
+  return {polygons, wedges, counts.wedges, groups, counts.groups, ring_owners, triangulation};
+}
+
+Result<PayloadMesh, PayloadFailure> decodePayloadMesh(const PayloadView& payload, const Limits& limits) {
+  if (!isWithin(payload.counts, limits)) return PayloadFailure{Error::kLimitExceeded};
+  PayloadMesh mesh;
+  mesh.counts = payload.counts;
+  for (const Step& step : kSteps) {
+    if (const Error error = step.decode(payload, mesh); error != Error::kNone) {
+      return PayloadFailure{error, nameOf(step.section)};
+    }
+  }
+  return mesh;
+}
+
+}  // namespace tutte
