@@ -7,19 +7,21 @@
 #include <vector>
 
 #include "codec/value_graph.h"
+#include "codec/value_guides.h"
 #include "codec/value_model.h"
 #include "codec/value_stencil.h"
 #include "codec/value_tables.h"
 
 namespace tutte::values {
 
-/// `C` components, `kInputs` mixed contexts (1, 2, 3 or 5). Values lie in [0, max].
-template <class Port, int C, int kInputs>
+/// `C` components, `kInputs` mixed contexts (1, 2, 3 or 5). Values lie in [0, max]. With `tangent`, three components
+/// are points of a surface, and the third is corrected towards its tangent plane.
+template <class Port, int C, int kInputs, class Guide>
 class SitePredictor {
  public:
-  SitePredictor(Port& port, const ValueGraph& graph, int32_t max, bool tangent)
-      : port_(port), graph_(graph), nodes_(graph.site_count), stencil_(graph, nodes_), residuals_(lines()), max_(max),
-        tangent_(tangent && C == 3 && max < 1 << 20) {
+  SitePredictor(Port& port, const ValueGraph& graph, std::span<const int32_t> places, int32_t max, bool tangent)
+      : port_(port), nodes_(graph.site_count), stencil_(graph, nodes_), guide_(graph, nodes_, places, max),
+        residuals_(lines()), max_(max), tangent_(tangent) {
     picks_.fill(Chance(6160));
     tangents_.fill(2048);
     last_.fill(0);
@@ -29,12 +31,14 @@ class SitePredictor {
   /// order of the bytes.
   void code(Index site, std::span<int32_t, C> value) {
     stencil_.gather(site, last_, tangent_);
+    guide_.refine(site, stencil_);
     estimateScale();
     const bool picked = pick(value);
     codeComponents(value);
     Node<C>& node = nodes_[site];
     for (int i = 0; i < C; ++i) node.value[i] = value[i];
     for (int i = 0; i < C; ++i) node.error[i] = static_cast<uint32_t>(errors_[i]);
+    guide_.learn(site, node.value);
     node.known = true;
     node.picked = picked;
     for (int i = 0; i < C; ++i) last_[i] = value[i];
@@ -210,8 +214,8 @@ class SitePredictor {
     ResidualContext context;
     context.component = rank;
     context.expected = expected;
-    const int64_t reference = stencil_.base[i];
-    const int lean = C == 3 && bent_ ? (normal_[i] > 0) - (normal_[i] < 0) : (prediction > reference) - (prediction < reference);
+    const int64_t side = C == 3 && bent_ ? normal_[i] : stencil_.lean[i] - prediction;
+    const int lean = (side > 0) - (side < 0);
     context.sign = static_cast<int>((prediction & 15) >> 1) * 3 + lean + 1;
     const auto component = static_cast<uint32_t>(rank);
     const auto e = static_cast<uint32_t>(expected);
@@ -247,9 +251,9 @@ class SitePredictor {
   static uint32_t log32(int64_t x) { return static_cast<uint32_t>(std::min(quarterLog(small(x)) / 2, 31)); }
 
   Port& port_;
-  const ValueGraph& graph_;
   std::vector<Node<C>> nodes_;
   Stencil<C> stencil_;
+  Guide guide_;
   ResidualCoder<kInputs> residuals_;
   std::array<Chance, 2 * 3 * 4 * 12> picks_;
   std::array<std::array<Chance, Stencil<C>::kMostMembers>, 3> indices_;

@@ -1,8 +1,10 @@
 #pragma once
 // What the known surroundings say about a value: parallelograms, their average and their disagreement.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "codec/value_graph.h"
@@ -45,11 +47,21 @@ class Stencil {
 
   static constexpr int kMostMembers = 8;
 
+  /// Replaces what was gathered by better predictions: their average and all of them.
+  void adopt(Source from, const Vec<C>& average, std::span<const Vec<C>> predictions) {
+    source = from;
+    base = lean = average;
+    member_count = static_cast<int>(predictions.size());
+    std::copy(predictions.begin(), predictions.end(), members.begin());
+    member_count > 1 ? spreadOfMembers() : spread.fill(0);
+  }
+
   Source source = Source::kLast;
   int member_count = 0;                        ///< parallelograms, if `source` is one of the first two
   std::array<Vec<C>, kMostMembers> members;
   Vec<C> base;                                 ///< the prediction
   Vec<C> spread;                               ///< how much the predictions disagree
+  Vec<C> lean;                                 ///< another prediction: the value is likelier on its side of the base
   uint32_t neighbours = 0;                     ///< known ones
   uint32_t picked_neighbours = 0;
   Vec<C> error_sum;                            ///< of the neighbours' errors
@@ -161,6 +173,7 @@ class Stencil {
         for (int m = 0; m < member_count; ++m) sum += members[m][i];
         base[i] = mean(sum, static_cast<uint32_t>(member_count));
       }
+      lean = base;
       if (member_count > 1) return spreadOfMembers();
     }
     settleFromAfar(site, last);
@@ -198,11 +211,12 @@ class Stencil {
     bool have_base = member_count > 0, have_spread = false;
     const auto offer = [&](Source from, const Vec<C>& prediction) {
       if (!have_base) {
-        base = prediction;
+        base = lean = prediction;
         source = from;
         have_base = true;
       } else if (!have_spread) {
         for (int i = 0; i < C; ++i) spread[i] = prediction[i] < base[i] ? base[i] - prediction[i] : prediction[i] - base[i];
+        lean = prediction;
         have_spread = true;
       }
     };
@@ -215,7 +229,7 @@ class Stencil {
     }
     if (!have_base) {
       source = Source::kLast;
-      for (int i = 0; i < C; ++i) base[i] = last[i] * kOne;
+      for (int i = 0; i < C; ++i) base[i] = lean[i] = last[i] * kOne;
     }
   }
 

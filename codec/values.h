@@ -18,20 +18,38 @@ enum class ValueProfile : uint8_t {
   kSmall = 2,    ///< five
 };
 
+/// What the values stand for, which decides about their prediction. Part of the format.
+enum class ValueKind : uint8_t {
+  kPlain = 0,      ///< anything
+  kPoints = 1,     ///< three components are points of a surface: corrected towards its tangent plane. max < 2^20
+  kTexcoord = 2,   ///< two components are places in a texture that lies on the surface. max < 2^18
+  kDirection = 3,  ///< two components are points of an unfolded octahedron. max is even, twice its centre
+};
+
 /// What the values are, besides the numbers.
 struct ValueFormat {
   int components = 3;              ///< 1 to 4
   int32_t max = 0;                 ///< values are 0 to max, below 2^27
   ValueProfile profile = ValueProfile::kDefault;
-  bool tangent = false;            ///< three components are points of a surface: correct towards its tangent plane
+  ValueKind kind = ValueKind::kPlain;
 };
 
-/// Appends the values, `components` per site in the order of site numbers, coded along `order` (valueOrder()).
-void encodeValues(const ValueGraph& graph, std::span<const Index> order, const ValueFormat& format,
-                  std::span<const int32_t> values, ByteWriter& out);
+/// A mesh's sites, and in which order they are coded (valueOrder()).
+struct ValueSites {
+  const ValueGraph& graph;
+  std::span<const Index> order;
+  std::span<const int32_t> places;  ///< three numbers below 2^20 per site: where it is. kTexcoord needs them, kDirection
+                                    ///< is better with them, others do not look at them; may be empty
+};
+
+/// True when values of this format can be coded at these sites.
+bool supports(const ValueSites& sites, const ValueFormat& format);
+
+/// Appends the values, `components` per site in the order of site numbers. The format must be supported.
+void encodeValues(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, ByteWriter& out);
 
 /// The values of any bytes, each within [0, max], or an error (kTruncated, kMalformed). All of `bytes` must be used.
-Result<std::vector<int32_t>> decodeValues(const ValueGraph& graph, std::span<const Index> order,
-                                          const ValueFormat& format, std::span<const uint8_t> bytes);
+Result<std::vector<int32_t>> decodeValues(const ValueSites& sites, const ValueFormat& format,
+                                          std::span<const uint8_t> bytes);
 
 }  // namespace tutte

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 
@@ -76,11 +77,18 @@ bool consistent(const AttributeTopology& topology) {
   return std::ranges::all_of(topology.seams, [&](auto seams) { return seams.empty() || seams.size() == corners; });
 }
 
-// The first byte of a plane's stream: profile in bits 0 and 1, kTangent.
-constexpr uint8_t kProfileMask = 3, kTangent = 4;
+// The first byte of a plane's stream: the profile in bits 0 and 1, the kind of its values from bit 2.
+constexpr uint8_t kProfileMask = 3;
+constexpr int kKindShift = 2;
 
-ValueFormat formatOf(const Plane& plane, uint8_t head) {
-  return {plane.components, plane.max, static_cast<ValueProfile>(head & kProfileMask), (head & kTangent) != 0};
+uint8_t headOf(const ValueFormat& format) {
+  return static_cast<uint8_t>(static_cast<int>(format.profile) | static_cast<int>(format.kind) << kKindShift);
+}
+
+std::optional<ValueFormat> formatOf(const Plane& plane, uint8_t head) {
+  const int profile = head & kProfileMask, kind = head >> kKindShift;
+  if (profile > static_cast<int>(ValueProfile::kSmall) || kind > static_cast<int>(ValueKind::kDirection)) return {};
+  return ValueFormat{plane.components, plane.max, static_cast<ValueProfile>(profile), static_cast<ValueKind>(kind)};
 }
 
 /// The values per site; empty when wedges of one site differ.
@@ -104,37 +112,54 @@ void spreadValues(std::span<const int32_t> values, const WedgeSites& wedges, Pla
   }
 }
 
-std::vector<uint8_t> encodePlane(const Layout& layout, const Plane& plane, std::span<const int32_t> values, uint8_t head) {
-  ByteWriter out;
-  encodeValues(layout.graph, layout.order, formatOf(plane, head), values, out);
-  return std::move(out).take();
+/// Where each site is, by the positions of its wedges; empty when there are none to predict from.
+std::vector<int32_t> placesOf(std::span<const Plane> planes, size_t current, const WedgeSites& wedges) {
+  if (current == 0 || planes[0].kind != PlaneKind::kPosition) return {};
+  std::vector<int32_t> places(size_t{wedges.count} * 3);
+  for (size_t w = 0; w < wedges.site_of.size(); ++w) {
+    std::copy_n(&planes[0].values[w * 3], 3, &places[size_t{wedges.site_of[w]} * 3]);
+  }
+  return places;
 }
 
-void writePlane(const Layout& layout, const Plane& plane, std::span<const int32_t> values, ValueProfile profile,
+/// What an encoder tries; the smallest is kept.
+std::vector<ValueKind> kindsFor(PlaneKind kind) {
+  switch (kind) {
+    case PlaneKind::kPosition: return {ValueKind::kPoints, ValueKind::kPlain};
+    case PlaneKind::kTexcoord: return {ValueKind::kTexcoord, ValueKind::kPlain};
+    case PlaneKind::kNormal:
+    case PlaneKind::kDirection: return {ValueKind::kDirection, ValueKind::kPlain};
+    default: return {ValueKind::kPlain};
+  }
+}
+
+void writePlane(const ValueSites& sites, const Plane& plane, std::span<const int32_t> values, ValueProfile profile,
                 ByteWriter& out) {
-  auto head = static_cast<uint8_t>(profile);
-  std::vector<uint8_t> bytes = encodePlane(layout, plane, values, head);
-  if (plane.kind == PlaneKind::kPosition) {
-    std::vector<uint8_t> bent = encodePlane(layout, plane, values, head | kTangent);
-    if (bent.size() < bytes.size()) {
-      bytes = std::move(bent);
-      head |= kTangent;
-    }
+  uint8_t head = 0;
+  std::vector<uint8_t> smallest;
+  for (const ValueKind kind : kindsFor(plane.kind)) {
+    const ValueFormat format{plane.components, plane.max, profile, kind};
+    if (!supports(sites, format)) continue;
+    ByteWriter bytes;
+    encodeValues(sites, format, values, bytes);
+    if (!smallest.empty() && smallest.size() <= bytes.bytes().size()) continue;
+    smallest = std::move(bytes).take();
+    head = headOf(format);
   }
   out.byte(head);
-  out.varint(static_cast<uint32_t>(bytes.size()));
-  out.append(bytes);
+  out.varint(static_cast<uint32_t>(smallest.size()));
+  out.append(smallest);
 }
 
-bool readPlane(const Layout& layout, ByteReader& in, Plane& plane) {
+bool readPlane(const ValueSites& sites, const WedgeSites& wedges, ByteReader& in, Plane& plane) {
   const uint8_t head = in.byte();
   const uint32_t size = in.varint();
   const std::span<const uint8_t> bytes = in.take(size);
-  if (in.error() != Error::kNone || head > (kProfileMask | kTangent)) return false;
-  if ((head & kProfileMask) > static_cast<uint8_t>(ValueProfile::kSmall)) return false;
-  const Result<std::vector<int32_t>> values = decodeValues(layout.graph, layout.order, formatOf(plane, head), bytes);
+  const std::optional<ValueFormat> format = formatOf(plane, head);
+  if (in.error() != Error::kNone || !format) return false;
+  const Result<std::vector<int32_t>> values = decodeValues(sites, *format, bytes);
   if (!values) return false;
-  spreadValues(*values, layout.wedges, plane);
+  spreadValues(*values, wedges, plane);
   return true;
 }
 
@@ -145,13 +170,15 @@ Outcome<std::vector<uint8_t>> encodeValuePlanes(const AttributeTopology& topolog
   if (!consistent(topology)) return Failure{FailureKind::kInvalid, "", "the attributes' topology contradicts itself"};
   Layouts layouts(topology);
   ByteWriter out;
-  for (const Plane& plane : planes) {
+  for (size_t i = 0; i < planes.size(); ++i) {
+    const Plane& plane = planes[i];
     const Layout& layout = layouts.get(plane.attribute);
     const std::vector<int32_t> values = siteValues(plane, layout.wedges);
     if (values.empty() && layout.wedges.count > 0) {
       return Failure{FailureKind::kInvalid, "", "an attribute has two values where its seams allow one"};
     }
-    writePlane(layout, plane, values, profile, out);
+    const std::vector<int32_t> places = placesOf(planes, i, layout.wedges);
+    writePlane({layout.graph, layout.order, places}, plane, values, profile, out);
   }
   return std::move(out).take();
 }
@@ -160,8 +187,10 @@ bool decodeValuePlanes(const AttributeTopology& topology, std::span<const uint8_
   if (!consistent(topology)) return false;
   Layouts layouts(topology);
   ByteReader in(bytes);
-  for (Plane& plane : planes) {
-    if (!readPlane(layouts.get(plane.attribute), in, plane)) return false;
+  for (size_t i = 0; i < planes.size(); ++i) {
+    const Layout& layout = layouts.get(planes[i].attribute);
+    const std::vector<int32_t> places = placesOf(planes, i, layout.wedges);
+    if (!readPlane({layout.graph, layout.order, places}, layout.wedges, in, planes[i])) return false;
   }
   return in.error() == Error::kNone && in.remaining() == 0;
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "codec/bytes.h"
 #include "codec/encode.h"
 #include "codec/values.h"
@@ -46,7 +48,7 @@ std::vector<int32_t> someValues(const Sites& sites, int components, int32_t max,
 
 std::vector<uint8_t> bytesOf(const Sites& sites, const ValueFormat& format, std::span<const int32_t> values) {
   ByteWriter out;
-  encodeValues(sites.graph, sites.order, format, values, out);
+  encodeValues({sites.graph, sites.order, {}}, format, values, out);
   return std::move(out).take();
 }
 
@@ -69,10 +71,10 @@ TEST(Values, RoundTrips) {
     for (const ValueProfile profile : kProfiles) {
       for (int components = 1; components <= 4; ++components) {
         for (const int32_t max : {0, 1, 255, 16383, (1 << 27) - 1}) {
-          const ValueFormat format{components, max, profile, components == 3 && max > 255};
+          const ValueFormat format{components, max, profile, components == 3 && max < 1 << 20 ? ValueKind::kPoints : ValueKind::kPlain};
           const std::vector<int32_t> values = someValues(sites, components, max, static_cast<uint64_t>(max));
           const std::vector<uint8_t> bytes = bytesOf(sites, format, values);
-          const Result<std::vector<int32_t>> decoded = decodeValues(sites.graph, sites.order, format, bytes);
+          const Result<std::vector<int32_t>> decoded = decodeValues({sites.graph, sites.order, {}}, format, bytes);
           ASSERT_TRUE(decoded) << name << ": " << describe(decoded.error());
           ASSERT_EQ(*decoded, values) << name << ", " << components << " components up to " << max;
         }
@@ -89,8 +91,8 @@ TEST(Values, Extremes) {
       shapes::Random random(7);
       std::vector<int32_t> values(size_t{sites.graph.site_count} * 3);
       for (int32_t& value : values) value = random.below(2) ? max : 0;
-      const ValueFormat format{3, max, profile, true};
-      const auto decoded = decodeValues(sites.graph, sites.order, format, bytesOf(sites, format, values));
+      const ValueFormat format{3, max, profile, max < 1 << 20 ? ValueKind::kPoints : ValueKind::kPlain};
+      const auto decoded = decodeValues({sites.graph, sites.order, {}}, format, bytesOf(sites, format, values));
       ASSERT_TRUE(decoded);
       EXPECT_EQ(*decoded, values);
     }
@@ -107,12 +109,12 @@ TEST(Values, PlanesAreNearlyFree) {
     const auto x = static_cast<int32_t>(vertex % (columns + 1)), y = static_cast<int32_t>(vertex / (columns + 1));
     values.insert(values.end(), {10 * x + 3 * y, 7 * y, 5 * x + 2 * y + 100});
   }
-  const std::vector<uint8_t> bytes = bytesOf(sites, {3, 4095, ValueProfile::kDefault, true}, values);
+  const std::vector<uint8_t> bytes = bytesOf(sites, {3, 4095, ValueProfile::kDefault, ValueKind::kPoints}, values);
   EXPECT_LT(bytes.size(), size_t{columns} * rows / 16);
 }
 
 bool isHarmless(const Sites& sites, const ValueFormat& format, std::span<const uint8_t> bytes) {
-  const auto decoded = decodeValues(sites.graph, sites.order, format, bytes);
+  const auto decoded = decodeValues({sites.graph, sites.order, {}}, format, bytes);
   if (!decoded) return true;
   if (decoded->size() != size_t{sites.graph.site_count} * format.components) return false;
   for (const int32_t value : *decoded) {
@@ -126,7 +128,7 @@ TEST(Values, DamagedBytes) {
     const Sites sites = vertexSites(shape.mesh);
     for (const ValueProfile profile : kProfiles) {
       for (const int32_t max : {16383, (1 << 27) - 1}) {
-        const ValueFormat format{3, max, profile, true};
+        const ValueFormat format{3, max, profile, max < 1 << 20 ? ValueKind::kPoints : ValueKind::kPlain};
         std::vector<uint8_t> bytes = bytesOf(sites, format, someValues(sites, 3, max, 3));
         for (size_t size = 0; size < bytes.size(); size += 5) {
           ASSERT_TRUE(isHarmless(sites, format, std::span(bytes).first(size)));
@@ -137,7 +139,7 @@ TEST(Values, DamagedBytes) {
           bytes[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
         }
         bytes.push_back(1);
-        EXPECT_FALSE(decodeValues(sites.graph, sites.order, format, bytes));
+        EXPECT_FALSE(decodeValues({sites.graph, sites.order, {}}, format, bytes));
       }
     }
   }
@@ -149,9 +151,63 @@ TEST(Values, Noise) {
     shapes::Random random(seed);
     std::vector<uint8_t> bytes(random.below(300));
     for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random.next());
-    const ValueFormat format{3, seed % 2 ? 4095 : (1 << 27) - 1, kProfiles[seed % 3], true};
+    const ValueFormat format{3, 4095, kProfiles[seed % 3], seed % 2 ? ValueKind::kPoints : ValueKind::kPlain};
     ASSERT_TRUE(isHarmless(sites, format, bytes)) << seed;
   }
+}
+
+struct Guided {
+  ValueFormat format;
+  std::vector<int32_t> places;
+  std::vector<int32_t> values;
+};
+
+/// A sheet with its texture laid flat on it, or with normals that are all alike.
+Guided guided(const Sites& sites, ValueKind kind, ValueProfile profile) {
+  Guided result{{2, 1022, profile, kind}, {}, {}};
+  for (const Index vertex : sites.vertex_order) {
+    const auto x = static_cast<int32_t>(vertex % 21), y = static_cast<int32_t>(vertex / 21);
+    result.places.insert(result.places.end(), {100 * x + 7 * y * y, 90 * y, 30 * x});
+    const std::array<int32_t, 2> texcoord = {40 * x, 30 * y}, normal = {300, 500 + x % 2};
+    const auto& value = kind == ValueKind::kTexcoord ? texcoord : normal;
+    result.values.insert(result.values.end(), value.begin(), value.end());
+  }
+  return result;
+}
+
+TEST(Values, GuidedRoundTripsAndDamage) {
+  for (const shapes::Shape& shape : {shapes::quadGrid(20, 20), shapes::triangleGrid(20, 20), shapes::soup(441, 300, 3, 6, 5)}) {
+    const Sites sites = vertexSites(shape.mesh);
+    for (const ValueProfile profile : kProfiles) {
+      for (const ValueKind kind : {ValueKind::kTexcoord, ValueKind::kDirection}) {
+        const Guided given = guided(sites, kind, profile);
+        const ValueSites where{sites.graph, sites.order, given.places};
+        ByteWriter out;
+        encodeValues(where, given.format, given.values, out);
+        std::vector<uint8_t> bytes = std::move(out).take();
+        const auto decoded = decodeValues(where, given.format, bytes);
+        ASSERT_TRUE(decoded) << describe(decoded.error());
+        ASSERT_EQ(*decoded, given.values);
+        for (size_t bit = 0; bit < 8 * bytes.size(); bit += 31) {
+          bytes[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
+          const auto damaged = decodeValues(where, given.format, bytes);
+          if (damaged) ASSERT_EQ(damaged->size(), given.values.size());
+          bytes[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
+        }
+      }
+    }
+  }
+}
+
+TEST(Values, UnsupportedFormatsAreRefused) {
+  const Sites sites = vertexSites(shapes::cube().mesh);
+  const ValueSites where{sites.graph, sites.order, {}};
+  EXPECT_TRUE(supports(where, {3, 100, ValueProfile::kDefault, ValueKind::kPoints}));
+  EXPECT_FALSE(supports(where, {2, 100, ValueProfile::kDefault, ValueKind::kPoints}));
+  EXPECT_FALSE(supports(where, {2, 100, ValueProfile::kDefault, ValueKind::kTexcoord}));  // no places
+  EXPECT_FALSE(supports(where, {2, 101, ValueProfile::kDefault, ValueKind::kDirection}));
+  EXPECT_FALSE(supports(where, {5, 100, ValueProfile::kDefault, ValueKind::kPlain}));
+  EXPECT_FALSE(supports(where, {1, 1 << 27, ValueProfile::kDefault, ValueKind::kPlain}));
 }
 
 /// Wedges with equal values on both sides of an edge that is no seam are one site.

@@ -1,0 +1,76 @@
+#pragma once
+// Integer geometry for predictions: roots, unit vectors, the octahedron.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace tutte::values {
+
+using Vector3 = std::array<int64_t, 3>;
+
+/// floor(sqrt(x)) for x below 2^62.
+inline int64_t squareRoot(uint64_t x) {
+  if (x == 0) return 0;
+  // From above, Newton's steps fall until they reach the root.
+  uint64_t root = uint64_t{1} << (static_cast<unsigned>(std::bit_width(x)) + 1) / 2;
+  for (;;) {
+    const uint64_t next = (root + x / root) >> 1;
+    if (next >= root) return static_cast<int64_t>(root);
+    root = next;
+  }
+}
+
+inline int64_t dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+inline Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+inline int64_t largestMagnitude(const Vector3& v) {
+  return std::max({v[0] < 0 ? -v[0] : v[0], v[1] < 0 ? -v[1] : v[1], v[2] < 0 ? -v[2] : v[2]});
+}
+
+/// Shifts a vector right until no component has more than `bits` bits.
+inline Vector3 shortened(Vector3 v, int bits) {
+  const int excess = static_cast<int>(std::bit_width(static_cast<uint64_t>(largestMagnitude(v)))) - bits;
+  if (excess > 0) {
+    for (int64_t& x : v) x >>= excess;
+  }
+  return v;
+}
+
+inline constexpr int kUnitBits = 14;
+
+/// The vector at length 2^kUnitBits; 0 stays 0.
+inline Vector3 unit(Vector3 v) {
+  v = shortened(v, 24);
+  const int64_t length = squareRoot(static_cast<uint64_t>(dot(v, v)));
+  if (length == 0) return {};
+  for (int64_t& x : v) x = (x << kUnitBits) / length;
+  return v;
+}
+
+/// A point of the unfolded octahedron, both coordinates in [0, 2 * centre], as a unit vector.
+inline Vector3 fromOctahedron(int64_t s, int64_t t, int64_t centre) {
+  const auto magnitude = [](int64_t x) { return x < 0 ? -x : x; };
+  int64_t y = s - centre, z = t - centre;
+  const int64_t x = centre - magnitude(y) - magnitude(z);
+  const int64_t fold = std::max<int64_t>(-x, 0);
+  y += y < 0 ? fold : -fold;
+  z += z < 0 ? fold : -fold;
+  return unit({x, y, z});
+}
+
+/// The reverse, with kFraction binary digits: coordinates in [0, 2 * centre << fraction]. `v` is not 0 and below 2^30.
+inline std::array<int64_t, 2> toOctahedron(const Vector3& v, int64_t centre, int fraction) {
+  const auto magnitude = [](int64_t x) { return x < 0 ? -x : x; };
+  const int64_t sum = magnitude(v[0]) + magnitude(v[1]) + magnitude(v[2]);
+  const int64_t middle = centre << fraction;
+  const int64_t y = v[1] * middle / sum, z = v[2] * middle / sum;
+  if (v[0] >= 0) return {y + middle, z + middle};
+  return {y < 0 ? magnitude(z) : 2 * middle - magnitude(z), z < 0 ? magnitude(y) : 2 * middle - magnitude(y)};
+}
+
+}  // namespace tutte::values

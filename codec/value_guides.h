@@ -1,0 +1,259 @@
+#pragma once
+// Predictions from what is known besides the attribute itself. A guide looks at a site after its stencil and may put
+// a better prediction into it; afterwards it learns the site's value.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/value_geometry.h"
+#include "codec/value_stencil.h"
+
+namespace tutte::values {
+
+/// For attributes without relatives.
+template <int C>
+struct NoGuide {
+  NoGuide(const ValueGraph&, const std::vector<Node<C>>&, std::span<const int32_t>, int32_t) {}
+  void refine(Index, Stencil<C>&) {}
+  void learn(Index, const std::array<int32_t, C>&) {}
+};
+
+/// The positions of the sites, three numbers each, below 2^20.
+class Places {
+ public:
+  explicit Places(std::span<const int32_t> values) : values_(values) {}
+
+  Vector3 operator[](Index site) const {
+    const int32_t* value = &values_[size_t{site} * 3];
+    return {value[0], value[1], value[2]};
+  }
+  Vector3 between(Index from, Index to) const {
+    const Vector3 a = (*this)[from], b = (*this)[to];
+    return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  }
+
+ private:
+  std::span<const int32_t> values_;
+};
+
+inline int64_t distance(const Vec<2>& a, const Vec<2>& b) {
+  const int64_t x = a[0] - b[0], y = a[1] - b[1];
+  return std::min<int64_t>((x < 0 ? -x : x) + (y < 0 ? -y : y), 1 << 20);
+}
+
+/// Texture coordinates: the texture is taken to lie on the surface without distortion, so a triangle in space, two
+/// corners of which have known coordinates, gives the third's, once it is known whether the texture is mirrored.
+class TexcoordGuide {
+ public:
+  TexcoordGuide(const ValueGraph& graph, const std::vector<Node<2>>& nodes, std::span<const int32_t> places,
+                int32_t max)
+      : graph_(graph), nodes_(nodes), places_(places), states_(graph.site_count), limit_(int64_t{max} << kFraction) {}
+
+  void refine(Index site, Stencil<2>& stencil) {
+    count_ = 0;
+    int64_t here_error = 0, stencil_error = 0;
+    const auto weigh = [&](Index neighbour) {
+      here_error += states_[neighbour].here_error;
+      stencil_error += states_[neighbour].stencil_error;
+    };
+    for (const Index corner : graph_.cornersOf(site)) {
+      const Index next = graph_.next(corner), prev = graph_.prev(corner);
+      const Index a = graph_.sites[next], b = graph_.sites[prev];
+      if (nodes_[a].known) weigh(a);
+      if (nodes_[b].known && graph_.twins[prev] == kNone) weigh(b);
+      if (nodes_[a].known && nodes_[b].known) develop(site, a, b);
+      if (graph_.faces[corner].degree() == 3) continue;
+      const Index c = graph_.sites[graph_.next(next)], d = graph_.sites[graph_.prev(prev)];
+      if (nodes_[a].known && nodes_[c].known) develop(site, a, c);
+      if (nodes_[d].known && nodes_[b].known) develop(site, d, b);
+    }
+    stencil_base_ = here_base_ = stencil.base;
+    if (count_ == 0) return;
+    average();
+    const bool weak = stencil.member_count == 0;
+    if (weak || here_error <= stencil_error) adopt(stencil, weak);
+    else stencil.lean = here_base_;
+  }
+
+  void learn(Index site, const std::array<int32_t, 2>& value) {
+    const Vec<2> truth = {int64_t{value[0]} << kFraction, int64_t{value[1]} << kFraction};
+    State& state = states_[site];
+    state.here_error = static_cast<uint32_t>(distance(truth, here_base_));
+    state.stencil_error = static_cast<uint32_t>(distance(truth, stencil_base_));
+    if (count_ == 0) return;
+    const int64_t x = value[0] - nodes_[edge_[0]].value[0], y = value[1] - nodes_[edge_[0]].value[1];
+    const int64_t side = edge_step_[0] * y - edge_step_[1] * x;
+    if (side != 0) last_turn_ = side > 0 ? 1 : -1;
+    state.turn = last_turn_;
+  }
+
+ private:
+  struct State {
+    uint32_t here_error = 0;     ///< of this guide's prediction
+    uint32_t stencil_error = 0;  ///< of the one it was given
+    int8_t turn = 0;             ///< 1: the texture lies as the surface does; -1: mirrored; 0: unknown
+  };
+
+  /// The prediction from the edge p -> q, which runs round the face that the site belongs to.
+  void develop(Index site, Index p, Index q) {
+    if (count_ == Stencil<2>::kMostMembers) return;
+    Vector3 edge = places_.between(p, q), leg = places_.between(p, site);
+    const int64_t largest = std::max(largestMagnitude(edge), largestMagnitude(leg));
+    const int shift = static_cast<int>(std::bit_width(static_cast<uint64_t>(largest))) - 14;
+    for (int i = 0; i < 3 && shift > 0; ++i) edge[i] >>= shift, leg[i] >>= shift;
+    const int64_t square = dot(edge, edge), along = dot(edge, leg);
+    if (square == 0) return;
+    const int64_t across = squareRoot(static_cast<uint64_t>(dot(leg, leg) * square - along * along));
+    const std::array<int32_t, 2>&from = nodes_[p].value, &to = nodes_[q].value;
+    const int64_t dx = int64_t{to[0]} - from[0], dy = int64_t{to[1]} - from[1];
+    const int64_t height = turnAt(p, q) < 0 ? -across : across;
+    Vec<2>& member = members_[count_];
+    member[0] = (int64_t{from[0]} << kFraction) + (along * dx - height * dy) * (1 << kFraction) / square;
+    member[1] = (int64_t{from[1]} << kFraction) + (along * dy + height * dx) * (1 << kFraction) / square;
+    for (int64_t& x : member) x = std::clamp(x, -limit_, 2 * limit_);
+    if (count_++ == 0) {
+      edge_ = {p, q};
+      edge_step_ = {dx, dy};
+    }
+  }
+
+  int turnAt(Index p, Index q) const {
+    if (states_[p].turn != 0) return states_[p].turn;
+    return states_[q].turn != 0 ? states_[q].turn : last_turn_;
+  }
+
+  void average() {
+    for (int i = 0; i < 2; ++i) {
+      int64_t sum = 0;
+      for (int m = 0; m < count_; ++m) sum += members_[m][i];
+      here_base_[i] = mean(sum, static_cast<uint32_t>(count_));
+    }
+  }
+
+  void adopt(Stencil<2>& stencil, bool weak) {
+    stencil.adopt(Source::kAcrossTriangle, here_base_, std::span(members_.data(), static_cast<size_t>(count_)));
+    if (weak) return;
+    stencil.lean = stencil_base_;
+    if (count_ > 1) return;
+    for (int i = 0; i < 2; ++i) {
+      const int64_t off = stencil_base_[i] - here_base_[i];
+      stencil.spread[i] = off < 0 ? -off : off;
+    }
+  }
+
+  const ValueGraph& graph_;
+  const std::vector<Node<2>>& nodes_;
+  const Places places_;
+  std::vector<State> states_;
+  const int64_t limit_;
+  int8_t last_turn_ = 1;
+
+  // Of the current site.
+  int count_ = 0;
+  std::array<Vec<2>, Stencil<2>::kMostMembers> members_;
+  Vec<2> here_base_{}, stencil_base_{};
+  std::array<Index, 2> edge_{};
+  std::array<int64_t, 2> edge_step_{};
+};
+
+/// Directions on the octahedron: the surface's own normal, that normal with the neighbours' deviation from theirs, or
+/// the neighbours' mean direction: whichever was best at the neighbours.
+class DirectionGuide {
+ public:
+  /// Without places (an empty span), only the neighbours count. `max` is twice the octahedron's centre.
+  DirectionGuide(const ValueGraph& graph, const std::vector<Node<2>>& nodes, std::span<const int32_t> places, int32_t max)
+      : graph_(graph), nodes_(nodes), states_(graph.site_count), centre_(max / 2) {
+    if (!places.empty()) addSurfaceNormals(Places(places));
+  }
+
+  void refine(Index site, Stencil<2>& stencil) {
+    std::array<int64_t, 3> errors{};
+    Vector3 sum{}, deviation{};
+    int64_t count = 0;
+    const auto weigh = [&](Index neighbour) {
+      if (!nodes_[neighbour].known) return;
+      const State& state = states_[neighbour];
+      for (int i = 0; i < 3; ++i) {
+        errors[i] += state.errors[i];
+        sum[i] += state.direction[i];
+        deviation[i] += state.direction[i] - state.surface[i];
+      }
+      ++count;
+    };
+    for (const Index corner : graph_.cornersOf(site)) {
+      weigh(graph_.sites[graph_.next(corner)]);
+      const Index prev = graph_.prev(corner);
+      if (graph_.twins[prev] == kNone) weigh(graph_.sites[prev]);
+    }
+    const Vector3 surface = surfaceAt(site);
+    Vector3 deviating = surface;
+    for (int i = 0; i < 3 && count > 0; ++i) deviating[i] += deviation[i] / count;
+    const bool flat = surface == Vector3{};
+    bases_.fill(stencil.base);
+    project(0, flat ? sum : surface);
+    project(1, flat ? sum : deviating);
+    project(2, count > 0 ? sum : surface);
+    choose(errors, stencil, count > 0 || !flat);
+  }
+
+  void learn(Index site, const std::array<int32_t, 2>& value) {
+    State& state = states_[site];
+    const Vec<2> truth = {int64_t{value[0]} << kFraction, int64_t{value[1]} << kFraction};
+    for (int i = 0; i < 3; ++i) state.errors[i] = static_cast<uint32_t>(distance(truth, bases_[i]));
+    const Vector3 direction = fromOctahedron(value[0], value[1], centre_);
+    for (int i = 0; i < 3; ++i) state.direction[i] = static_cast<int16_t>(direction[i]);
+  }
+
+ private:
+  struct State {
+    std::array<int16_t, 3> direction{}, surface{};
+    std::array<uint32_t, 3> errors{};
+  };
+
+  void addSurfaceNormals(Places places) {
+    for (Index site = 0; site < graph_.site_count; ++site) {
+      Vector3 sum{};
+      for (const Index corner : graph_.cornersOf(site)) {
+        const Vector3 normal = cross(places.between(site, graph_.sites[graph_.next(corner)]),
+                                     places.between(site, graph_.sites[graph_.prev(corner)]));
+        sum = shortened({sum[0] + normal[0], sum[1] + normal[1], sum[2] + normal[2]}, 60);
+      }
+      const Vector3 normal = unit(sum);
+      for (int i = 0; i < 3; ++i) states_[site].surface[i] = static_cast<int16_t>(normal[i]);
+    }
+  }
+
+  Vector3 surfaceAt(Index site) const {
+    const auto& surface = states_[site].surface;
+    return {surface[0], surface[1], surface[2]};
+  }
+
+  void project(int i, const Vector3& direction) {
+    const Vector3 shorter = shortened(direction, 24);
+    if (shorter != Vector3{}) bases_[i] = toOctahedron(shorter, centre_, kFraction);
+  }
+
+  void choose(const std::array<int64_t, 3>& errors, Stencil<2>& stencil, bool useful) {
+    if (!useful) return;
+    int best = 0;
+    for (int i = 1; i < 3; ++i) best = errors[i] < errors[best] ? i : best;
+    int second = best == 0 ? 1 : 0;
+    for (int i = 1; i < 3; ++i) second = i != best && errors[i] < errors[second] ? i : second;
+    stencil.adopt(Source::kAcrossTriangle, bases_[best], std::span(&bases_[best], 1));
+    stencil.lean = bases_[second];
+    for (int i = 0; i < 2; ++i) {
+      const int64_t off = bases_[second][i] - bases_[best][i];
+      stencil.spread[i] = off < 0 ? -off : off;
+    }
+  }
+
+  const ValueGraph& graph_;
+  const std::vector<Node<2>>& nodes_;
+  std::vector<State> states_;
+  const int64_t centre_;
+  std::array<Vec<2>, 3> bases_{};  // of the current site
+};
+
+}  // namespace tutte::values
