@@ -191,7 +191,7 @@ TEST(Values, GuidedRoundTripsAndDamage) {
         for (size_t bit = 0; bit < 8 * bytes.size(); bit += 31) {
           bytes[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
           const auto damaged = decodeValues(where, given.format, bytes);
-          if (damaged) ASSERT_EQ(damaged->size(), given.values.size());
+          if (damaged) { ASSERT_EQ(damaged->size(), given.values.size()); }
           bytes[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
         }
       }
