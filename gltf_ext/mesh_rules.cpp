@@ -46,8 +46,6 @@ Outcome<Done> checkFaces(const PolygonMesh& mesh) {
   if (!ringsAreValid(mesh.ring_owners, mesh.groups)) {
     return invalid("rings", "an interior ring must belong to an exterior ring of its own group");
   }
-  const bool any = std::ranges::any_of(mesh.ring_owners, [](Index owner) { return owner != kNone; });
-  if (any && mesh.triangulation.counts.empty()) return invalid("rings", "polygons with holes need their triangles");
   return Done{};
 }
 

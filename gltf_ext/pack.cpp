@@ -12,6 +12,7 @@
 #include "codec/wedges.h"
 #include "gltf_ext/attribute_topology.h"
 #include "gltf_ext/mesh_rules.h"
+#include "gltf_ext/triangulate.h"
 
 namespace tutte {
 namespace {
@@ -64,9 +65,8 @@ class Packer {
     packed_.degree_bytes = encoded_.degree_bytes;
     packed_.connectivity_bytes = static_cast<uint32_t>(encoded_.bytes.size());
     parts_.set(Section::kConnectivity, std::move(encoded_.bytes));
-    std::vector<Index> coded_of_decoded;
-    polygonsOf(encoded_.connectivity, &coded_of_decoded);
-    packed_.corner_order = gather(encoded_.corner_order, coded_of_decoded);
+    decoded_polygons_ = polygonsOf(encoded_.connectivity, &coded_of_decoded_);
+    packed_.corner_order = gather(encoded_.corner_order, coded_of_decoded_);
     return Done{};
   }
 
@@ -175,7 +175,7 @@ class Packer {
 
   Triangulation triangulationInCodedOrder() const {
     const Triangulation& input = mesh_.triangulation;
-    if (input.counts.empty()) return fanTriangulation({encoded_.connectivity.face_degrees, {}, 0}, owners_);
+    if (input.counts.empty()) return chosenTriangulation();
     std::vector<size_t> starts(input.counts.size());
     size_t start = 0;
     for (size_t face = 0; face < starts.size(); ++face) {
@@ -194,6 +194,18 @@ class Packer {
     return result;
   }
 
+  /// Chosen in coded order, because a fan from the first coded corner costs nothing.
+  Triangulation chosenTriangulation() const {
+    PolygonMesh mesh;
+    mesh.polygons = decoded_polygons_;
+    mesh.wedges = gather(numbering_.wedges, coded_of_decoded_);
+    mesh.wedge_count = mesh_.wedge_count;
+    mesh.ring_owners = owners_;
+    if (!attributes_.empty()) mesh.attributes = {attributes_[0]};
+    triangulate(mesh);
+    return std::move(mesh.triangulation);
+  }
+
   Outcome<Done> attributes() {
     packed_.attribute_bytes = packed_.seam_bytes;
     parts_.counts.attributes = static_cast<Index>(attributes_.size());
@@ -209,6 +221,8 @@ class Packer {
   const PolygonMesh& mesh_;
   const PackOptions& options_;
   Encoded encoded_;
+  Polygons decoded_polygons_;            ///< the polygons as unpack() will give them
+  std::vector<Index> coded_of_decoded_;  ///< their corners in coded order
   WedgeNumbering numbering_;
   Seams decoded_seams_;
   std::vector<Attribute> attributes_;  ///< in coded wedge order

@@ -47,9 +47,9 @@ struct Packed {
   double connectivity_encode_seconds = 0;
 };
 
-/// Codes a mesh that obeys the rules of gltf_ext/mesh_rules.h. Polygons without triangles are taken for fans. Also
-/// refused: a wedge that belongs to two vertices, wedges of one vertex with different positions, and an unequal number
-/// of isolated vertices and unused wedges.
+/// Codes a mesh that obeys the rules of gltf_ext/mesh_rules.h. A mesh without triangles gets those of triangulate(): fans
+/// from the first coded corner where these are right, for they cost nothing. Also refused: a wedge that belongs to two
+/// vertices, wedges of one vertex with different positions, and an unequal number of isolated vertices and unused wedges.
 Outcome<Packed> pack(const PolygonMesh& mesh, const PackOptions& options = {});
 
 /// The mesh that pack() stored, in coded order; its triangulation is always given. Any bytes may be passed.

@@ -179,7 +179,28 @@ TEST(Pack, PolygonsWithHoles) {
   expectRoundTrip(plateWithHole());
   PolygonMesh untriangulated = plateWithHole();
   untriangulated.triangulation = {};
-  EXPECT_FALSE(pack(untriangulated).ok());
+  const std::vector<uint16_t> positions = {0, 0, 0, 9, 0, 0, 9, 9, 0, 0, 9, 0, 3, 3, 0, 6, 3, 0, 6, 6, 0, 3, 6, 0};
+  untriangulated.attributes = {attribute("POSITION", 3, ComponentType::kUint16, positions)};
+  const Outcome<Packed> packed = pack(untriangulated);
+  ASSERT_TRUE(packed.ok());
+  const Outcome<PolygonMesh> out = unpack(packed->bytes);
+  ASSERT_TRUE(out.ok());
+  EXPECT_EQ(out->triangulation.corners.size(), 30u);
+}
+
+TEST(Pack, ChoosesTrianglesThatCostNothing) {
+  PolygonMesh mesh;
+  const shapes::Shape grid = shapes::quadGrid(20, 20);
+  mesh.polygons = grid.mesh;
+  mesh.wedge_count = mesh.polygons.vertex_count;
+  std::vector<float> positions;
+  for (const shapes::Position& p : grid.positions) positions.insert(positions.end(), p.begin(), p.end());
+  mesh.attributes = {attribute("POSITION", 3, ComponentType::kFloat, positions)};
+  const Outcome<Packed> packed = pack(mesh);
+  ASSERT_TRUE(packed.ok());
+  const Result<PayloadView> view = parsePayload(packed->bytes);
+  ASSERT_TRUE(view.ok());
+  EXPECT_FALSE(view->has(Section::kTriangulation));
 }
 
 TEST(Pack, RefusesMeshesThatContradictThemselves) {
