@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 
 #include "gltf_ext/accessors.h"
@@ -22,9 +23,12 @@ class PolygonReader {
       return invalid(where_, "the first polygon must begin at offset 0");
     }
     for (size_t n = 0; n < count; ++n) {
-      const auto rings = readRings(slice(arrays_.loops, arrays_.loop_offsets, n));
+      const auto loops = slice(arrays_.loops, arrays_.loop_offsets, n);
+      const auto triangles = slice(triangles_, arrays_.index_offsets, n);
+      if (!loops || !triangles) return invalid(where_, "offsets must rise and stay inside their arrays");
+      const auto rings = readRings(*loops);
       if (!rings) return rings.error();
-      const auto drawn = readTriangles(slice(triangles_, arrays_.index_offsets, n));
+      const auto drawn = readTriangles(*triangles);
       if (!drawn) return drawn.error();
     }
     if (!has_holes_) faces_.ring_owners.clear();
@@ -32,10 +36,11 @@ class PolygonReader {
   }
 
  private:
-  /// The elements of polygon n; empty (which is refused below) when the offsets are wrong.
-  static std::span<const Index> slice(std::span<const Index> values, std::span<const Index> offsets, size_t n) {
+  /// The elements of polygon n; nothing when the offsets are wrong.
+  static std::optional<std::span<const Index>> slice(std::span<const Index> values, std::span<const Index> offsets,
+                                                     size_t n) {
     const size_t begin = offsets[n], end = n + 1 < offsets.size() ? offsets[n + 1] : values.size();
-    if (begin > end || end > values.size()) return {};
+    if (begin > end || end > values.size()) return std::nullopt;
     return values.subspan(begin, end - begin);
   }
 
@@ -48,7 +53,7 @@ class PolygonReader {
       if (i > begin) addRing(loops.subspan(begin, i - begin));
       begin = i + 1;
     }
-    if (faces_.degrees.size() == exterior_) return invalid(where_, "a polygon has no ring, or its offsets are wrong");
+    if (faces_.degrees.size() == exterior_) return invalid(where_, "a polygon has no ring");
     return Done{};
   }
 
