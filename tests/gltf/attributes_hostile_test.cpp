@@ -16,7 +16,7 @@ using Bytes = std::vector<uint8_t>;
 
 float wave(Index wedge, int c) { return static_cast<float>(std::sin(0.05 * wedge + c)); }
 
-class HostileAttributes : public testing::Test {
+class HostileAttributes : public testing::TestWithParam<AttributeCoder> {
  protected:
   HostileAttributes() : shape_(shapes::mergeFaces(shapes::randomTriangulation(24, 1), 8, 2)), mesh_(codeMesh(shape_, true)) {
     const Index count = mesh_.wedgeCount();
@@ -35,7 +35,9 @@ class HostileAttributes : public testing::Test {
   }
 
   Bytes section() {
-    auto bytes = encodeAttributes(mesh_.topology(attributes_), attributes_, {});
+    PackOptions options;
+    options.attribute_coder = GetParam();
+    auto bytes = encodeAttributes(mesh_.topology(attributes_), attributes_, options);
     EXPECT_TRUE(bytes.ok());
     return *std::move(bytes);
   }
@@ -55,7 +57,7 @@ class HostileAttributes : public testing::Test {
   std::vector<Attribute> attributes_;
 };
 
-TEST_F(HostileAttributes, EveryPrefixIsRefused) {
+TEST_P(HostileAttributes, EveryPrefixIsRefused) {
   const Bytes bytes = section();
   const AttributeTopology topology = mesh_.topology(attributes_);
   for (size_t size = 0; size < bytes.size(); ++size) {
@@ -67,7 +69,7 @@ TEST_F(HostileAttributes, EveryPrefixIsRefused) {
   EXPECT_TRUE(refused(topology, longer));
 }
 
-TEST_F(HostileAttributes, EveryFlippedBitIsSurvived) {
+TEST_P(HostileAttributes, EveryFlippedBitIsSurvived) {
   Bytes bytes = section();
   const AttributeTopology topology = mesh_.topology(attributes_);
   for (size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
@@ -77,7 +79,7 @@ TEST_F(HostileAttributes, EveryFlippedBitIsSurvived) {
   }
 }
 
-TEST_F(HostileAttributes, MutationsAreSurvived) {
+TEST_P(HostileAttributes, MutationsAreSurvived) {
   const Bytes original = section();
   const AttributeTopology topology = mesh_.topology(attributes_);
   shapes::Random random(3);
@@ -90,7 +92,7 @@ TEST_F(HostileAttributes, MutationsAreSurvived) {
   }
 }
 
-TEST_F(HostileAttributes, AnotherMeshsSectionIsSurvived) {
+TEST_P(HostileAttributes, AnotherMeshsSectionIsSurvived) {
   const Bytes bytes = section();
   for (const auto& [name, shape] : shapes::dirtyShapes()) {
     SCOPED_TRACE(name);
@@ -99,8 +101,11 @@ TEST_F(HostileAttributes, AnotherMeshsSectionIsSurvived) {
   }
 }
 
-TEST_F(HostileAttributes, PlanesOfRandomBytesTakeLittleMemory) {
-  const AttributeTopology topology = mesh_.topology(attributes_);
+INSTANTIATE_TEST_SUITE_P(Coders, HostileAttributes, testing::Values(AttributeCoder::kDraco, AttributeCoder::kTutte));
+
+TEST(HostilePlanes, RandomBytesTakeLittleMemory) {
+  CodedMesh mesh = codeMesh(shapes::mergeFaces(shapes::randomTriangulation(24, 1), 8, 2), true);
+  const AttributeTopology topology = mesh.topology({});
   rusage before{}, after{};
   getrusage(RUSAGE_SELF, &before);
   shapes::Random random(4);
