@@ -2,6 +2,7 @@
 // Where values sit on a mesh. Corners that share a value form a *site*: a vertex for positions; for an attribute with
 // seams, the corners of a vertex between two seams.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -9,30 +10,50 @@
 
 namespace tutte {
 
-/// The sites of one attribute over a mesh, as predictors see them.
-struct ValueGraph {
-  /// The corners of a corner's face: [begin, end).
-  struct Span {
-    Index begin, end;
-    Index degree() const { return end - begin; }
+/// The sites of one attribute over a mesh, as predictors see them. 16 bytes per corner, and 4 for the way back.
+class ValueGraph {
+ public:
+  /// `site_of` gives a number below `site_count` for every corner. O(corners).
+  template <class SiteOf>
+  ValueGraph(const Connectivity& mesh, Index site_count, SiteOf site_of) : site_count_(site_count) {
+    addCorners(mesh);
+    for (Index c = 0; c < corners_.size(); ++c) corners_[c].site = site_of(c);
+    if (site_count != mesh.umbrella_count || !mesh.vertices.empty()) dropSeamTwins();
+    addCornersOfSites();
+  }
+
+  Index siteCount() const { return site_count_; }
+  Index cornerCount() const { return static_cast<Index>(corners_.size()); }
+
+  Index site(Index corner) const { return corners_[corner].site; }
+  /// As Connectivity::twins, but kNone where the far side has other sites.
+  Index twin(Index corner) const { return corners_[corner].twin; }
+  Index faceBegin(Index corner) const { return corners_[corner].begin; }
+  Index faceEnd(Index corner) const { return corners_[corner].end; }
+  Index degree(Index corner) const { return corners_[corner].end - corners_[corner].begin; }
+  Index next(Index corner) const { return corner + 1 == corners_[corner].end ? corners_[corner].begin : corner + 1; }
+  Index prev(Index corner) const { return corner == corners_[corner].begin ? corners_[corner].end - 1 : corner - 1; }
+
+  /// All corners of a site but those of faces of degree below 3.
+  std::span<const Index> cornersOf(Index site) const {
+    return {around_.data() + first_[site], first_[site + 1] - first_[site]};
+  }
+
+ private:
+  struct Corner {
+    Index site, twin;
+    Index begin, end;  // of the face
   };
 
-  Index site_count = 0;
-  std::vector<Index> sites;    ///< per corner
-  std::vector<Index> twins;    ///< per corner: as Connectivity::twins, but kNone where the far side has other sites
-  std::vector<Span> faces;     ///< per corner
-  std::vector<Index> first;    ///< the corners of site s are corners[first[s]] ... corners[first[s + 1] - 1]; corners
-  std::vector<Index> corners;  ///< of faces of degree below 3 are left out
+  void addCorners(const Connectivity& mesh);
+  void dropSeamTwins();
+  void addCornersOfSites();
 
-  Index next(Index corner) const { return corner + 1 == faces[corner].end ? faces[corner].begin : corner + 1; }
-  Index prev(Index corner) const { return corner == faces[corner].begin ? faces[corner].end - 1 : corner - 1; }
-  std::span<const Index> cornersOf(Index site) const {
-    return {corners.data() + first[site], first[site + 1] - first[site]};
-  }
+  Index site_count_;
+  std::vector<Corner> corners_;
+  std::vector<Index> first_;   // the corners of site s are around_[first_[s]] ... around_[first_[s + 1] - 1]
+  std::vector<Index> around_;
 };
-
-/// `sites` holds a number below `site_count` per corner. O(corners).
-ValueGraph buildValueGraph(const Connectivity& mesh, std::vector<Index> sites, Index site_count);
 
 /// The site of each wedge, numbered by the smallest wedge.
 struct WedgeSites {
@@ -49,7 +70,36 @@ WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, I
 WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count);
 
 /// The order in which values are coded: always one of the sites with the most known surroundings, so that most values
-/// are predicted by several parallelograms. A function of the graph alone. O(corners).
-std::vector<Index> valueOrder(const ValueGraph& graph);
+/// are predicted by several parallelograms. A function of the graph alone. O(corners) in all.
+class SiteOrder {
+ public:
+  explicit SiteOrder(const ValueGraph& graph);
+
+  /// The next site, which counts as known from now on. To be called once per site.
+  Index next();
+
+ private:
+  static constexpr int kLevels = 6;
+
+  bool isKnown(Index corner) const { return score_[graph_.site(corner)] == kKnown; }
+  void reveal(Index corner);
+  void revealPolygon(Index corner, Index known, Index degree);
+  void add(Index corner, Index amount);
+  void raise(Index corner, Index least);
+  void setScore(Index site, Index score);
+  Index pop();
+
+  static constexpr Index kKnown = kNone;
+
+  const ValueGraph& graph_;
+  std::array<std::vector<Index>, kLevels> stacks_;  // by urgency
+  int top_ = -1;                                    // no higher stack has anything
+  Index seed_ = 0;
+  std::vector<Index> score_;  // per site
+  std::vector<Index> known_;  // per face, at its first corner: how many of its corners are known
+};
+
+/// All sites in that order.
+std::vector<Index> siteOrder(const ValueGraph& graph);
 
 }  // namespace tutte

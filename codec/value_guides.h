@@ -49,7 +49,7 @@ class TexcoordGuide {
  public:
   TexcoordGuide(const ValueGraph& graph, const std::vector<Node<2>>& nodes, std::span<const int32_t> places,
                 int32_t max)
-      : graph_(graph), nodes_(nodes), places_(places), states_(graph.site_count), limit_(int64_t{max} << kFraction) {}
+      : graph_(graph), nodes_(nodes), places_(places), states_(graph.siteCount()), limit_(int64_t{max} << kFraction) {}
 
   void refine(Index site, Stencil<2>& stencil) {
     count_ = 0;
@@ -60,12 +60,12 @@ class TexcoordGuide {
     };
     for (const Index corner : graph_.cornersOf(site)) {
       const Index next = graph_.next(corner), prev = graph_.prev(corner);
-      const Index a = graph_.sites[next], b = graph_.sites[prev];
+      const Index a = graph_.site(next), b = graph_.site(prev);
       if (nodes_[a].known) weigh(a);
-      if (nodes_[b].known && graph_.twins[prev] == kNone) weigh(b);
+      if (nodes_[b].known && graph_.twin(prev) == kNone) weigh(b);
       if (nodes_[a].known && nodes_[b].known) develop(site, a, b);
-      if (graph_.faces[corner].degree() == 3) continue;
-      const Index c = graph_.sites[graph_.next(next)], d = graph_.sites[graph_.prev(prev)];
+      if (graph_.degree(corner) == 3) continue;
+      const Index c = graph_.site(graph_.next(next)), d = graph_.site(graph_.prev(prev));
       if (nodes_[a].known && nodes_[c].known) develop(site, a, c);
       if (nodes_[d].known && nodes_[b].known) develop(site, d, b);
     }
@@ -164,7 +164,7 @@ class DirectionGuide {
  public:
   /// Without places (an empty span), only the neighbours count. `max` is twice the octahedron's centre.
   DirectionGuide(const ValueGraph& graph, const std::vector<Node<2>>& nodes, std::span<const int32_t> places, int32_t max)
-      : graph_(graph), nodes_(nodes), states_(graph.site_count), centre_(max / 2) {
+      : graph_(graph), nodes_(nodes), states_(graph.siteCount()), centre_(max / 2) {
     if (!places.empty()) addSurfaceNormals(Places(places));
   }
 
@@ -183,9 +183,9 @@ class DirectionGuide {
       ++count;
     };
     for (const Index corner : graph_.cornersOf(site)) {
-      weigh(graph_.sites[graph_.next(corner)]);
+      weigh(graph_.site(graph_.next(corner)));
       const Index prev = graph_.prev(corner);
-      if (graph_.twins[prev] == kNone) weigh(graph_.sites[prev]);
+      if (graph_.twin(prev) == kNone) weigh(graph_.site(prev));
     }
     const Vector3 surface = surfaceAt(site);
     Vector3 deviating = surface;
@@ -213,11 +213,11 @@ class DirectionGuide {
   };
 
   void addSurfaceNormals(Places places) {
-    for (Index site = 0; site < graph_.site_count; ++site) {
+    for (Index site = 0; site < graph_.siteCount(); ++site) {
       Vector3 sum{};
       for (const Index corner : graph_.cornersOf(site)) {
-        const Vector3 normal = cross(places.between(site, graph_.sites[graph_.next(corner)]),
-                                     places.between(site, graph_.sites[graph_.prev(corner)]));
+        const Vector3 normal = cross(places.between(site, graph_.site(graph_.next(corner))),
+                                     places.between(site, graph_.site(graph_.prev(corner))));
         sum = shortened({sum[0] + normal[0], sum[1] + normal[1], sum[2] + normal[2]}, 60);
       }
       const Vector3 normal = unit(sum);

@@ -20,7 +20,7 @@ template <class Port, int C, int kInputs, class Guide>
 class SitePredictor {
  public:
   SitePredictor(Port& port, const ValueGraph& graph, std::span<const int32_t> places, int32_t max, bool tangent)
-      : port_(port), nodes_(graph.site_count), stencil_(graph, nodes_), guide_(graph, nodes_, places, max),
+      : port_(port), nodes_(graph.siteCount()), stencil_(graph, nodes_), guide_(graph, nodes_, places, max),
         residuals_(lines()), max_(max), tangent_(tangent) {
     picks_.fill(Chance(6160));
     tangents_.fill(2048);

@@ -68,15 +68,14 @@ class Stencil {
   std::array<int64_t, 3> normal;               ///< of the surroundings, not of unit length; 0: unknown
 
  private:
-  const Node<C>& node(Index corner) const { return nodes_[graph_.sites[corner]]; }
+  const Node<C>& node(Index corner) const { return nodes_[graph_.site(corner)]; }
 
   void visit(Index corner) {
-    const ValueGraph::Span face = graph_.faces[corner];
     const Index next = graph_.next(corner), prev = graph_.prev(corner);
     const Node<C>&a = node(next), &b = node(prev);
     if (a.known) addNeighbour(a);
-    if (b.known && graph_.twins[prev] == kNone) addNeighbour(b);
-    const Index degree = face.degree();
+    if (b.known && graph_.twin(prev) == kNone) addNeighbour(b);
+    const Index degree = graph_.degree(corner);
     if (degree > 4) return visitPolygon(next, prev, a, b, degree);
     if (!a.known || !b.known) return;
     if (degree == 3) return visitTriangle(next, a, b);
@@ -89,12 +88,12 @@ class Stencil {
   }
 
   void visitTriangle(Index next, const Node<C>& a, const Node<C>& b) {
-    const Index twin = graph_.twins[next];
+    const Index twin = graph_.twin(next);
     if (twin == kNone) return;
     const Index beyond_b = graph_.prev(twin);
     const Node<C>& x = node(beyond_b);
     if (!x.known) return;
-    const bool triangle = graph_.faces[twin].degree() == 3;
+    const bool triangle = graph_.degree(twin) == 3;
     const Node<C>& y = triangle ? x : node(graph_.next(graph_.next(twin)));
     if (!y.known) return;
     addNormal(b, a, x);
@@ -194,17 +193,17 @@ class Stencil {
   void settleFromAfar(Index site, const Vec<C>& last) {
     Far across, straight;
     for (const Index corner : graph_.cornersOf(site)) {
-      if (graph_.faces[corner].degree() < 4) continue;
+      if (graph_.degree(corner) < 4) continue;
       const Index next = graph_.next(corner), prev = graph_.prev(corner);
       const Index next2 = graph_.next(next), prev2 = graph_.prev(prev);
-      const Index beyond_next = graph_.twins[next], beyond_prev = graph_.twins[prev2];
+      const Index beyond_next = graph_.twin(next), beyond_prev = graph_.twin(prev2);
       if (node(next).known && beyond_next != kNone) {
         lookAcross(node(next), node(next2), graph_.next(graph_.next(beyond_next)), graph_.prev(beyond_next), across,
-                   straight, graph_.faces[beyond_next].degree());
+                   straight, graph_.degree(beyond_next));
       }
       if (node(prev).known && beyond_prev != kNone) {
         lookAcross(node(prev), node(prev2), graph_.prev(beyond_prev), graph_.next(graph_.next(beyond_prev)), across,
-                   straight, graph_.faces[beyond_prev].degree());
+                   straight, graph_.degree(beyond_prev));
       }
     }
     spread.fill(0);

@@ -67,7 +67,7 @@ struct Run {
 
 bool supports(const ValueSites& sites, const ValueFormat& format) {
   if (format.components < 1 || format.components > 4 || format.max < 0 || format.max > kMaxValue) return false;
-  const bool places = sites.places.size() == size_t{sites.graph.site_count} * 3;
+  const bool places = sites.places.size() == size_t{sites.graph.siteCount()} * 3;
   if (!places && !sites.places.empty()) return false;
   switch (format.kind) {
     case ValueKind::kPlain: return true;
@@ -93,7 +93,7 @@ Result<std::vector<int32_t>> decodeValues(const ValueSites& sites, const ValueFo
   const std::span<const uint8_t> decisions = in.take(size);
   if (in.error() != Error::kNone) return in.error();
   ValueReader port(decisions, bytes.subspan(in.position()));
-  std::vector<int32_t> values(size_t{sites.graph.site_count} * format.components, 0);
+  std::vector<int32_t> values(size_t{sites.graph.siteCount()} * format.components, 0);
   const Error error = Run<ValueReader>{port, sites, format, values}.profile();
   if (error != Error::kNone) return error;
   if (port.overrun()) return Error::kTruncated;

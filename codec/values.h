@@ -34,7 +34,7 @@ struct ValueFormat {
   ValueKind kind = ValueKind::kPlain;
 };
 
-/// A mesh's sites, and in which order they are coded (valueOrder()).
+/// A mesh's sites, and in which order they are coded (siteOrder()).
 struct ValueSites {
   const ValueGraph& graph;
   std::span<const Index> order;

@@ -12,7 +12,7 @@ namespace {
 /// Where an attribute's values sit, and in which order they are coded.
 struct Layout {
   WedgeSites wedges;
-  ValueGraph graph;
+  std::optional<ValueGraph> graph;
   std::vector<Index> order;
 };
 
@@ -51,10 +51,9 @@ class Layouts {
     auto layout = std::make_unique<Layout>();
     layout->wedges = positions ? joinVertices(mesh, topology_.wedges, topology_.wedge_count)
                                : joinWedges(mesh, topology_.wedges, topology_.wedge_count, seams);
-    std::vector<Index> sites(topology_.wedges.size());
-    for (size_t c = 0; c < sites.size(); ++c) sites[c] = layout->wedges.site_of[topology_.wedges[c]];
-    layout->graph = buildValueGraph(mesh, std::move(sites), layout->wedges.count);
-    layout->order = valueOrder(layout->graph);
+    const auto site_of = [&](Index corner) { return layout->wedges.site_of[topology_.wedges[corner]]; };
+    layout->graph.emplace(mesh, layout->wedges.count, site_of);
+    layout->order = siteOrder(*layout->graph);
     return layout;
   }
 
@@ -178,7 +177,7 @@ Outcome<std::vector<uint8_t>> encodeValuePlanes(const AttributeTopology& topolog
       return Failure{FailureKind::kInvalid, "", "an attribute has two values where its seams allow one"};
     }
     const std::vector<int32_t> places = placesOf(planes, i, layout.wedges);
-    writePlane({layout.graph, layout.order, places}, plane, values, profile, out);
+    writePlane({*layout.graph, layout.order, places}, plane, values, profile, out);
   }
   return std::move(out).take();
 }
@@ -190,7 +189,7 @@ bool decodeValuePlanes(const AttributeTopology& topology, std::span<const uint8_
   for (size_t i = 0; i < planes.size(); ++i) {
     const Layout& layout = layouts.get(planes[i].attribute);
     const std::vector<int32_t> places = placesOf(planes, i, layout.wedges);
-    if (!readPlane({layout.graph, layout.order, places}, layout.wedges, in, planes[i])) return false;
+    if (!readPlane({*layout.graph, layout.order, places}, layout.wedges, in, planes[i])) return false;
   }
   return in.error() == Error::kNone && in.remaining() == 0;
 }

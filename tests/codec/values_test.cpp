@@ -25,10 +25,9 @@ Sites vertexSites(const Polygons& mesh) {
   Result<Encoded> encoded = encode(mesh);
   EXPECT_TRUE(encoded);
   const Connectivity& connectivity = encoded->connectivity;
-  std::vector<Index> sites(connectivity.umbrellas.size());
-  for (Index c = 0; c < sites.size(); ++c) sites[c] = connectivity.vertexOf(c);
-  Sites result{buildValueGraph(connectivity, std::move(sites), connectivity.vertex_count), {}, encoded->vertex_order};
-  result.order = valueOrder(result.graph);
+  const auto site_of = [&](Index corner) { return connectivity.vertexOf(corner); };
+  Sites result{ValueGraph(connectivity, connectivity.vertex_count, site_of), {}, encoded->vertex_order};
+  result.order = siteOrder(result.graph);
   return result;
 }
 
@@ -55,7 +54,7 @@ std::vector<uint8_t> bytesOf(const Sites& sites, const ValueFormat& format, std:
 TEST(Values, OrderVisitsEverySiteOnce) {
   for (const auto& [name, shape] : shapes::allShapes()) {
     Sites sites = vertexSites(shape.mesh);
-    std::vector<bool> seen(sites.graph.site_count, false);
+    std::vector<bool> seen(sites.graph.siteCount(), false);
     for (const Index site : sites.order) {
       ASSERT_LT(site, seen.size()) << name;
       ASSERT_FALSE(seen[site]) << name;
@@ -89,7 +88,7 @@ TEST(Values, Extremes) {
   for (const ValueProfile profile : kProfiles) {
     for (const int32_t max : {1, 1 << 20, (1 << 27) - 1}) {
       shapes::Random random(7);
-      std::vector<int32_t> values(size_t{sites.graph.site_count} * 3);
+      std::vector<int32_t> values(size_t{sites.graph.siteCount()} * 3);
       for (int32_t& value : values) value = random.below(2) ? max : 0;
       const ValueFormat format{3, max, profile, max < 1 << 20 ? ValueKind::kPoints : ValueKind::kPlain};
       const auto decoded = decodeValues({sites.graph, sites.order, {}}, format, bytesOf(sites, format, values));
@@ -116,7 +115,7 @@ TEST(Values, PlanesAreNearlyFree) {
 bool isHarmless(const Sites& sites, const ValueFormat& format, std::span<const uint8_t> bytes) {
   const auto decoded = decodeValues({sites.graph, sites.order, {}}, format, bytes);
   if (!decoded) return true;
-  if (decoded->size() != size_t{sites.graph.site_count} * format.components) return false;
+  if (decoded->size() != size_t{sites.graph.siteCount()} * format.components) return false;
   for (const int32_t value : *decoded) {
     if (value < 0 || value > format.max) return false;
   }
