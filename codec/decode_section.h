@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "codec/dual.h"
 #include "codec/mesh.h"
 #include "codec/range_coder.h"
 #include "codec/repairs.h"
@@ -30,28 +31,50 @@ inline bool repeatsUmbrella(const Connectivity& mesh) {
   return false;
 }
 
+// A dual's faces are umbrellas, and its corners include those of dummy faces, which are no more than the others.
+inline Limits walkLimits(const SectionHeader& header, const Limits& limits) {
+  if (!header.dual) return limits;
+  const Index corners = limits.max_corners > kNone / 2 ? kNone : 2 * limits.max_corners;
+  return {kNone, limits.max_corners, corners};
+}
+
+/// The streams of a section, with the statistics that its header names.
+template <class Statistics, class Observer>
+Result<Connectivity> decodeStreams(const SectionHeader& header, const SectionStreams& streams, const Limits& limits,
+                                   Observer& observer) {
+  RangeReader valences(streams.valences), degrees(streams.degrees);
+  Blind oracle;
+  Watched<Script<Statistics, RangeReader, Blind>, Observer> script(observer, header, valences, degrees, oracle);
+  Walk walk(script, header.tie, header.leastDegree(), walkLimits(header, limits));
+  if (const Error error = walk.run(); error != Error::kNone) return error;
+  PrimalMesh primal{std::move(walk.connectivity()), {}, walk.onBoundary()};
+  if (header.dual) {
+    Result<PrimalMesh> turned = primalOf(primal.connectivity, walk.dummyUmbrellas(), limits);
+    if (!turned) return turned.error();
+    primal = std::move(*turned);
+  }
+  Connectivity& mesh = primal.connectivity;
+  if (walk.splits() > 0 && repeatsUmbrella(mesh)) return Error::kMalformed;
+  if (header.repairs) {
+    const RepairNotes unknown;
+    RepairCoder coder(valences, unknown, primal.on_boundary, limits, mesh);
+    if (const Error error = coder.run(); error != Error::kNone) return error;
+  }
+  if (valences.overrun() || degrees.overrun()) return Error::kTruncated;
+  if (valences.trailing() || degrees.trailing()) return Error::kTrailingBytes;
+  if (mesh.vertex_count > limits.max_vertices) return Error::kLimitExceeded;
+  return std::move(mesh);
+}
+
 /// decode(), telling `observer` (see Unwatched) what the traversal's symbols say.
 template <class Observer>
 Result<Connectivity> decodeSection(std::span<const uint8_t> bytes, const Limits& limits, Observer& observer) {
   SectionHeader header;
   const Result<SectionStreams> streams = readSection(bytes, header);
   if (!streams) return streams.error();
-  RangeReader valences(streams->valences), degrees(streams->degrees), repairs(streams->repairs);
-  Blind oracle;
-  Watched<Script<RangeReader, Blind>, Observer> script(observer, header, valences, degrees, oracle);
-  Walk walk(script, header.tie, limits);
-  if (const Error error = walk.run(); error != Error::kNone) return error;
-  Connectivity mesh = std::move(walk.connectivity());
-  if (walk.splits() > 0 && repeatsUmbrella(mesh)) return Error::kMalformed;
-  if (header.repairs) {
-    const RepairNotes unknown;
-    RepairCoder coder(repairs, unknown, walk.onBoundary(), limits, mesh);
-    if (const Error error = coder.run(); error != Error::kNone) return error;
-  }
-  if (valences.overrun() || degrees.overrun()) return Error::kTruncated;
-  if (valences.trailing() || degrees.trailing() || repairs.trailing()) return Error::kTrailingBytes;
-  if (mesh.vertex_count > limits.max_vertices) return Error::kLimitExceeded;
-  return mesh;
+  return withStatistics(header, [&]<class Statistics>(std::type_identity<Statistics>) {
+    return decodeStreams<Statistics>(header, *streams, limits, observer);
+  });
 }
 
 }  // namespace tutte

@@ -1,15 +1,23 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "codec/mesh.h"
+#include "codec/profile.h"
 #include "codec/result.h"
 
 namespace tutte {
 
 /// How the encoder works. No choice changes what is decoded, only how many bytes it takes.
-struct EncodeOptions {};
+struct EncodeOptions {
+  /// Statistics; by default chosen by size: small up to 40,000 corners, fast above 40 million, else default.
+  std::optional<Profile> profile;
+  /// How long to search for choices that make fewer bytes: 0 not at all, 1 while it costs little, 2 as long as files
+  /// are worth it, 3 as long as anybody might wait.
+  int effort = 1;
+};
 
 /// What the encoder made of one mesh.
 struct Encoded {

@@ -32,18 +32,35 @@ struct alignas(64) Gap {
   Index queue_next = kNone;
   Index queue_prev = kNone;
   bool queued = false;          ///< in the boundary and not part of the current face
+
+  // What the contexts want to know, gathered while the region grows.
+  bool dummy = false;           ///< a dummy face touches the umbrella
+  uint8_t opposite_next = 0;    ///< in the face behind: the valence (up to 14) of the vertex beyond the next gap's
+  uint8_t opposite_own = 0;     ///< in the face behind: the valence of the vertex beyond this gap's own
+  uint32_t neighbours = 0;      ///< edges of the umbrella seen by this gap
+  uint32_t neighbour_valences = 0;  ///< sum of the valences (each up to 200) at their far ends
+  uint32_t angle = 0;           ///< sum over the real faces around it of 1 - 2 / degree, in 1/65536
 };
 
 /// Gap records by number, with a bucket queue by free slots: every operation is O(1). Numbers of released gaps are
 /// used again, last released first, so that both sides number alike.
 class Gaps {
  public:
-  explicit Gaps(TieRule tie) : tie_(tie) { clearQueue(); }
+  explicit Gaps(TieRule tie) : tie_(tie) {
+    head_.fill(kNone);
+    tail_.fill(kNone);
+  }
 
   Gap& operator[](Index gap) { return records_[gap]; }
   const Gap& operator[](Index gap) const { return records_[gap]; }
 
-  /// One more than the largest number ever given.
+  /// Forgets all gaps, so that numbers begin at 0 again. The boundary must be empty.
+  void clear() {
+    records_.clear();
+    free_ = kNone;
+  }
+
+  /// One more than the largest number given since clear().
   Index highWater() const { return static_cast<Index>(records_.size()); }
 
   /// A record that is in no list and no queue. Invalidates references.
@@ -101,11 +118,6 @@ class Gaps {
     records_[gap].queue_next = after;
     (before == kNone ? head_[bucket] : records_[before].queue_next) = gap;
     (after == kNone ? tail_[bucket] : records_[after].queue_prev) = gap;
-  }
-
-  void clearQueue() {
-    head_.fill(kNone);
-    tail_.fill(kNone);
   }
 
   TieRule tie_;

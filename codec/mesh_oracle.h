@@ -1,8 +1,10 @@
 #pragma once
 // The encoder's answers to the walk's questions, from the input mesh.
 
+#include <span>
 #include <vector>
 
+#include "codec/components.h"
 #include "codec/gaps.h"
 #include "codec/topology.h"
 #include "codec/walk.h"
@@ -13,10 +15,10 @@ namespace tutte {
 /// y slots, which is O(n log n) in all.
 class MeshOracle {
  public:
-  static constexpr bool kKnows = true;
-
-  explicit MeshOracle(const Topology& topology)
+  /// The plans cover all components.
+  MeshOracle(const Topology& topology, std::span<const ComponentPlan> plans)
       : topology_(topology),
+        plans_(plans),
         face_done_(topology.faces.faceCount(), 0),
         umbrella_known_(topology.valence.size(), 0),
         gap_at_(topology.twin.size(), kNone) {
@@ -28,13 +30,13 @@ class MeshOracle {
   const std::vector<Index>& startCorners() const { return start_corners_; }
   const std::vector<Index>& umbrellaOrder() const { return umbrella_order_; }
 
-  bool component() {
-    while (next_seed_ < topology_.real_faces && face_done_[next_seed_]) ++next_seed_;
-    return next_seed_ < topology_.real_faces;
-  }
+  bool component() { return next_component_ < plans_.size(); }
+
+  /// The earlier component that the next one repeats, or kNone.
+  Index original() const { return plans_[next_component_].original; }
 
   void seed() {
-    enter(topology_.faces.first[next_seed_]);
+    enter(plans_[next_component_++].seed);
     corner_ = topology_.faces.prev(corner_);  // the first step() leads to the first corner
   }
   void start(const Gap& gap) {
@@ -52,12 +54,13 @@ class MeshOracle {
     return {faces.first[face_ + 1] - faces.first[face_], topology_.isDummy(face_)};
   }
 
-  Index vertex() {
+  VertexAnswer vertex() {
     const Index umbrella = topology_.faces.vertex[topology_.faces.next(corner_)];
-    if (umbrella_known_[umbrella]) return 0;
+    if (umbrella_known_[umbrella]) return {};
     umbrella_known_[umbrella] = 1;
     umbrella_order_.push_back(umbrella);
-    return topology_.valence[umbrella];
+    const bool dummy = !topology_.dummy_umbrella.empty() && topology_.dummy_umbrella[umbrella];
+    return {topology_.valence[umbrella], dummy};
   }
 
   /// Looks for the ends of the gap on both sides of the face's slot in turn.
@@ -86,10 +89,11 @@ class MeshOracle {
   bool done(Index corner) const { return face_done_[topology_.faces.face[corner]]; }
 
   const Topology& topology_;
+  std::span<const ComponentPlan> plans_;
   std::vector<uint8_t> face_done_, umbrella_known_;
   std::vector<Index> gap_at_;  // per corner outside the region: the gap whose leaving edge is its edge
   std::vector<Index> start_corners_, umbrella_order_;
-  Index next_seed_ = 0;
+  size_t next_component_ = 0;
   Index face_ = 0, corner_ = 0;
 };
 

@@ -48,6 +48,9 @@ class RangeWriter {
 
   bool overrun() const { return false; }
 
+  /// Bits of information so far, rounded down.
+  size_t bits() const { return 8 * bytes_.size() + 64 - static_cast<size_t>(std::bit_width(range_)); }
+
   /// Ends the stream: the shortest bytes that select the final interval.
   std::vector<uint8_t> finish() && {
     const uint64_t last = low_ + (range_ - 1);

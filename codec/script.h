@@ -1,14 +1,19 @@
 #pragma once
 // The symbols of the connectivity section, written once for both directions: each member asks the oracle (which knows
 // in the encoder and is blind in the decoder), codes the answer through a port, and returns what was coded.
-//
-// Statistics: sections 3.4.1 and 3.4.2 of Khodakovsky, Alliez, Desbrun, Schroeder 2002.
 
+#include <algorithm>
 #include <array>
+#include <type_traits>
 
+#include "codec/component_log.h"
 #include "codec/gaps.h"
 #include "codec/model.h"
+#include "codec/result.h"
 #include "codec/section.h"
+#include "codec/split_coder.h"
+#include "codec/statistics_mixed.h"
+#include "codec/statistics_paper.h"
 #include "codec/walk.h"
 
 namespace tutte {
@@ -16,79 +21,71 @@ namespace tutte {
 /// The oracle of a decoder.
 struct Blind {
   static bool component() { return false; }
+  static Index original() { return kNone; }
   static void seed() {}
   static void start(const Gap&) {}
   static void step() {}
   static void cross(Gap&, Index) {}
   static FaceAnswer face() { return {}; }
-  static Index vertex() { return 0; }
+  static VertexAnswer vertex() { return {}; }
   static SplitAnswer split(const Gaps&) { return {}; }
 };
 
-/// Watches nothing.
-struct NoObserver {
-  static void face(const FaceAnswer&, Index) {}
-  static void vertex(Index, Index) {}
-  static void split(const SplitAnswer&) {}
-};
-
-/// The context of a face's degree: the degree of the face behind its first edge, and whether the valences at the ends
-/// of that edge are together below, at, or above what is regular there. 0 to 6.
-inline Index faceContext(const FaceQuestion& question, const Gaps& gaps) {
-  if (question.gap == kNone) return 0;
-  const Index behind = gaps[question.gap].degree_behind;
-  if (behind != 3 && behind != 4) return 0;
-  const Index regular = behind == 3 ? 12 : 8;
-  const Index sum = gaps[question.gap].valence + gaps[question.far_gap].valence;
-  return (behind == 3 ? 2 : 5) + (sum > regular) - (sum < regular);
-}
-
-/// The context of a vertex's valence: the degree of its face, and whether the face's known vertices have valences
-/// below, at, or above the regular one on average. 0 to 7.
-inline Index vertexContext(const VertexQuestion& question) {
-  const Index degree = question.face.dummy ? 0 : question.face.degree;
-  if (degree == 5) return 1;
-  if (degree != 3 && degree != 4) return 0;
-  const uint64_t regular = uint64_t{question.known_vertices} * (degree == 3 ? 6 : 4);
-  const uint64_t sum = question.valence_sum;
-  return (degree == 3 ? 3 : 6) + (sum > regular) - (sum < regular);
-}
-
-/// Codes a mesh's symbols through two ports, one for valences and splits, one for degrees.
-template <class Port, class Oracle, class Observer = NoObserver>
+/// Codes a mesh's symbols through two ports, one for valences and splits, one for degrees. The statistics decide how.
+template <class Statistics, class Port, class Oracle>
 class Script {
  public:
-  Script(const SectionHeader& header, Port& valences, Port& degrees, Oracle& oracle, Observer observer = {})
-      : header_(header), valences_(valences), degrees_(degrees), oracle_(oracle), observer_(observer) {}
+  Script(const SectionHeader& header, Port& valences, Port& degrees, Oracle& oracle)
+      : header_(header), statistics_(header), log_(header.copies), valences_(valences), degrees_(degrees), oracle_(oracle) {}
 
-  bool component() { return component_.code(valences_, oracle_.component()); }
+  bool component() {
+    if (!component_.code(valences_, oracle_.component())) return false;
+    damaged_ |= !log_.begin(valences_, oracle_.original());
+    return true;
+  }
 
   FaceAnswer face(const FaceQuestion& question, const Gaps& gaps) {
-    const Index context = faceContext(question, gaps);
-    const FaceAnswer answer = codeFace(question, context, oracle_.face());
-    observer_.face(answer, context);
+    const FaceAnswer truth = oracle_.face();
+    if (log_.replaying()) {
+      const Index symbol = log_.next();
+      return {symbol >> 1, (symbol & 1) != 0};
+    }
+    const FaceAnswer answer = statistics_.face(degrees_, question, gaps, truth);
+    log_.add(answer.degree << 1 | static_cast<Index>(answer.dummy));
     return answer;
   }
 
-  Index vertex(const VertexQuestion& question) {
-    const Index context = vertexContext(question);
-    const Index valence = codeVertex(context, oracle_.vertex());
-    observer_.vertex(valence, context);
-    return valence;
-  }
-
-  SplitAnswer split(const Gaps& gaps, bool last) {
-    SplitAnswer answer = oracle_.split(gaps);
-    answer.gap = valences_.uniform(gaps.highWater(), answer.gap);
-    // At least one slot remains before the face, and one after its last vertex.
-    const Index slots = gaps[answer.gap].free_slots, least = last ? 1 : 0;
-    if (slots < 2 + least) return {};
-    answer.slots_after = least + valences_.uniform(slots - 1 - least, answer.slots_after - least);
-    observer_.split(answer);
+  VertexAnswer vertex(const VertexQuestion& question, const Gaps& gaps) {
+    const VertexAnswer truth = oracle_.vertex();
+    if (log_.replaying()) {
+      const Index symbol = log_.next();
+      return {symbol >> 1, (symbol & 1) != 0};
+    }
+    VertexAnswer answer{statistics_.vertex(valences_, question, gaps, truth.valence), false};
+    if (header_.hasDummyUmbrellas() && answer.valence != 0) {
+      answer.dummy = dummy_[std::min(answer.valence, Index{15})].code(valences_, truth.dummy);
+    }
+    log_.add(answer.valence << 1 | static_cast<Index>(answer.dummy));
     return answer;
   }
 
-  bool overrun() const { return valences_.overrun() || degrees_.overrun(); }
+  SplitAnswer split(const VertexQuestion& question, const Gaps& gaps) {
+    const SplitAnswer truth = oracle_.split(gaps);
+    if (log_.replaying()) {
+      const Index gap = log_.next();
+      return {gap, log_.next()};
+    }
+    const SplitAnswer answer = splits_.code(valences_, question, gaps, truth);
+    log_.add(answer.gap);
+    log_.add(answer.slots_after);
+    return answer;
+  }
+
+  /// Why the walk must stop: the streams ended before the mesh did, or named what does not exist.
+  Error fault() const {
+    if (damaged_) return Error::kMalformed;
+    return valences_.overrun() || degrees_.overrun() ? Error::kTruncated : Error::kNone;
+  }
 
   void seed() { oracle_.seed(); }
   void start(const Gap& gap) { oracle_.start(gap); }
@@ -96,37 +93,27 @@ class Script {
   void cross(Gap& gap, Index number) { oracle_.cross(gap, number); }
 
  private:
-  static constexpr Index kSplit = 0, kEscape = 1, kDummy = 2, kSymbols = 16;
-
-  FaceAnswer codeFace(const FaceQuestion& question, Index context, const FaceAnswer& truth) {
-    FaceAnswer answer{question.closed ? question.known_edges : header_.uniform_degree, false};
-    if (answer.degree != 0) {
-      answer.dummy = !header_.closed && question.gap != kNone && dummy_[context].code(degrees_, truth.dummy);
-      if (answer.dummy && !question.closed) answer.degree = 3 + dummy_degree_.code(degrees_, truth.degree - 3);
-      return answer;
-    }
-    const Index large = truth.degree >= kSymbols ? kEscape : truth.degree;
-    const Index symbol = degree_[context].code(degrees_, truth.dummy ? kDummy : large);
-    if (symbol == kDummy) return {3 + dummy_degree_.code(degrees_, truth.degree - 3), true};
-    if (symbol == kEscape) return {kSymbols + large_degree_.code(degrees_, truth.degree - kSymbols), false};
-    return {symbol, false};
-  }
-
-  Index codeVertex(Index context, Index truth) {
-    const Index symbol = valence_[context].code(valences_, truth >= kSymbols ? kEscape : truth);
-    return symbol == kEscape ? kSymbols + large_valence_.code(valences_, truth - kSymbols) : symbol;
-  }
-
   const SectionHeader& header_;
+  Statistics statistics_;
+  ComponentLog log_;
   Port& valences_;
   Port& degrees_;
   Oracle& oracle_;
-  Observer observer_;
   Bit component_;
-  std::array<SymbolModel<kSymbols>, 8> valence_;
-  std::array<SymbolModel<kSymbols>, 7> degree_;
-  std::array<Bit, 7> dummy_;
-  NumberModel large_valence_, large_degree_, dummy_degree_;
+  std::array<Bit, 16> dummy_;  // by valence
+  SplitCoder splits_;
+  bool damaged_ = false;
 };
+
+/// Runs `use` with the statistics class that the header names, as a type: use(std::type_identity<Statistics>).
+template <class Use>
+auto withStatistics(const SectionHeader& header, Use&& use) {
+  switch (header.profile) {
+    case Profile::kFast: return use(std::type_identity<MixedStatistics<FastProfile>>());
+    case Profile::kDefault: return use(std::type_identity<MixedStatistics<DefaultProfile>>());
+    case Profile::kSmall: return use(std::type_identity<MixedStatistics<SmallProfile>>());
+    default: return use(std::type_identity<PaperStatistics>());
+  }
+}
 
 }  // namespace tutte

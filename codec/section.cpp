@@ -3,7 +3,9 @@
 namespace tutte {
 namespace {
 
-constexpr uint8_t kDegreeMask = 0x0F, kClosed = 0x10, kNewestFirst = 0x20, kRepairs = 0x40, kReserved = 0x80;
+constexpr uint8_t kDegreeMask = 0x0F, kClosed = 0x10, kNewestFirst = 0x20, kRepairs = 0x40, kCopies = 0x80;
+constexpr uint8_t kProfileMask = 0x03, kMatch = 0x04, kTableMask = 0x38, kDual = 0x40, kReserved = 0x80;
+constexpr int kTableShift = 3, kLeastTableBits = 5;
 
 }  // namespace
 
@@ -11,11 +13,11 @@ std::vector<uint8_t> writeSection(const SectionHeader& header, const SectionStre
   ByteWriter writer;
   writer.byte(static_cast<uint8_t>(header.uniform_degree | (header.closed ? kClosed : 0) |
                                    (header.tie == TieRule::kNewestFirst ? kNewestFirst : 0) |
-                                   (header.repairs ? kRepairs : 0)));
+                                   (header.repairs ? kRepairs : 0) | (header.copies ? kCopies : 0)));
+  writer.byte(static_cast<uint8_t>(static_cast<int>(header.profile) | (header.match ? kMatch : 0) | (header.dual ? kDual : 0) |
+                                   (header.table_bits - kLeastTableBits) << kTableShift));
   if (!header.degreesKnown()) writer.varint(static_cast<uint32_t>(streams.degrees.size()));
-  if (header.repairs) writer.varint(static_cast<uint32_t>(streams.repairs.size()));
   writer.append(streams.degrees);
-  writer.append(streams.repairs);
   writer.append(streams.valences);
   return std::move(writer).take();
 }
@@ -26,16 +28,23 @@ Result<SectionStreams> readSection(std::span<const uint8_t> bytes, SectionHeader
   header.uniform_degree = flags & kDegreeMask;
   header.closed = flags & kClosed;
   header.repairs = flags & kRepairs;
+  header.copies = flags & kCopies;
   header.tie = flags & kNewestFirst ? TieRule::kNewestFirst : TieRule::kOldestFirst;
+  const uint8_t statistics = reader.byte();
+  header.profile = static_cast<Profile>(statistics & kProfileMask);
+  header.match = statistics & kMatch;
+  header.dual = statistics & kDual;
+  header.table_bits = ((statistics & kTableMask) >> kTableShift) + kLeastTableBits;
   const uint32_t degree_bytes = header.degreesKnown() ? 0 : reader.varint();
-  const uint32_t repair_bytes = header.repairs ? reader.varint() : 0;
   SectionStreams streams;
   streams.degrees = reader.take(degree_bytes);
-  streams.repairs = reader.take(repair_bytes);
   streams.valences = reader.take(reader.remaining());
   if (reader.error() != Error::kNone) return reader.error();
-  const bool bad_degree = header.uniform_degree == 1 || header.uniform_degree == 2;
-  if (flags & kReserved || bad_degree) return Error::kMalformed;
+  const bool bad_degree = header.uniform_degree != 0 && header.uniform_degree < header.leastDegree();
+  if (statistics & kReserved || bad_degree ||
+      header.table_bits > mostTableBits(bytes.size())) {
+    return Error::kMalformed;
+  }
   return streams;
 }
 

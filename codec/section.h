@@ -1,6 +1,8 @@
 #pragma once
 // The head of a connectivity section.
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,27 +10,48 @@
 #include "codec/bytes.h"
 #include "codec/gaps.h"
 #include "codec/mesh.h"
+#include "codec/profile.h"
 #include "codec/result.h"
 
 namespace tutte {
 
 /// What the decoder must know before the first symbol.
 struct SectionHeader {
+  Profile profile = Profile::kPaper;
+  bool match = false;        ///< repeated sequences of symbols are predicted (not by kPaper)
+  int table_bits = 7;        ///< 2^table_bits lines per context, 5 to 12 (not used by kPaper)
   Index uniform_degree = 0;  ///< all faces have this degree, 3 to 15; 0: degrees are coded
+  bool dual = false;         ///< the walk is over the dual mesh: its faces are the umbrellas, its umbrellas the faces
   bool closed = false;       ///< there are no dummy faces
-  bool repairs = false;      ///< there is a repair stream
+  bool repairs = false;      ///< the valence stream ends with repairs
+  bool copies = false;       ///< some components repeat earlier ones
   TieRule tie = TieRule::kOldestFirst;
 
   /// Nothing is left to code about degrees.
-  bool degreesKnown() const { return closed && uniform_degree != 0; }
+  bool degreesKnown() const { return !hasDummyFaces() && uniform_degree != 0; }
+
+  /// The walk meets dummy faces as faces.
+  bool hasDummyFaces() const { return !closed && !dual; }
+
+  /// ... or as umbrellas.
+  bool hasDummyUmbrellas() const { return !closed && dual; }
+
+  Index leastDegree() const { return dual ? 2 : 3; }
 };
 
-/// The three streams of a section.
+/// The two streams of a section.
 struct SectionStreams {
-  std::span<const uint8_t> valences, degrees, repairs;
+  std::span<const uint8_t> valences, degrees;
 };
 
-/// Head and streams in one piece: flags, the lengths of the optional streams, degrees, repairs, valences.
+/// The most lines per context that a section of this many bytes may ask for: what a few bytes claim must not cost
+/// megabytes.
+constexpr int mostTableBits(size_t section_bytes) {
+  return std::clamp(static_cast<int>(std::bit_width(section_bytes)) + 1, 7, 12);
+}
+
+/// Head and streams in one piece: two bytes of flags, the length of the degree stream unless degrees are known, the
+/// degree stream, and to the end the valence stream.
 std::vector<uint8_t> writeSection(const SectionHeader& header, const SectionStreams& streams);
 
 /// The reverse. The spans point into `bytes`.

@@ -25,6 +25,7 @@ struct Topology {
   std::vector<uint8_t> flipped;        ///< per real face; empty: none
   std::vector<Index> strays;           ///< input faces of degree 0, 1 and 2
   Index real_faces = 0;                ///< dummy faces come after them
+  std::vector<uint8_t> dummy_umbrella; ///< per umbrella, only in a dual: it is a dummy face; empty: none is
 
   bool isDummy(Index face) const { return face >= real_faces; }
 };

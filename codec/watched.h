@@ -37,15 +37,14 @@ class Watched : public Script {
     return answer;
   }
 
-  template <class... More>
-  Index vertex(const VertexQuestion& question, const More&... more) {
-    const Index valence = Script::vertex(question, more...);
-    observer_.vertex(question, valence);
-    return valence;
+  VertexAnswer vertex(const VertexQuestion& question, const Gaps& gaps) {
+    const VertexAnswer answer = Script::vertex(question, gaps);
+    observer_.vertex(question, answer.valence);
+    return answer;
   }
 
-  SplitAnswer split(const Gaps& gaps, bool last) {
-    const SplitAnswer answer = Script::split(gaps, last);
+  SplitAnswer split(const VertexQuestion& question, const Gaps& gaps) {
+    const SplitAnswer answer = Script::split(question, gaps);
     observer_.split(answer);
     return answer;
   }

@@ -195,8 +195,8 @@ AssertionResult isSameMesh(const Encoded& encoded, const Connectivity& decoded, 
   return AssertionSuccess();
 }
 
-AssertionResult roundTrips(PolygonView input) {
-  const Result<Encoded> encoded = encode(input);
+AssertionResult roundTrips(PolygonView input, const EncodeOptions& options) {
+  const Result<Encoded> encoded = encode(input, options);
   if (!encoded) return AssertionFailure() << "encode: " << describe(encoded.error());
   if (AssertionResult result = isValid(encoded->connectivity); !result) return result << " (while encoding)";
   const Result<Connectivity> decoded = decode(encoded->bytes);

@@ -23,7 +23,7 @@ testing::AssertionResult areEqual(const Connectivity& a, const Connectivity& b);
 testing::AssertionResult isSameMesh(const Encoded& encoded, const Connectivity& decoded, PolygonView input);
 
 /// Encodes, decodes and checks all of the above but isUncut.
-testing::AssertionResult roundTrips(PolygonView input);
+testing::AssertionResult roundTrips(PolygonView input, const EncodeOptions& options = {});
 
 /// decode() of a copy in an allocation of exactly the right size gives an error or a valid mesh.
 testing::AssertionResult isHarmless(std::span<const uint8_t> bytes);

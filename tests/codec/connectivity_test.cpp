@@ -25,6 +25,17 @@ TEST(RoundTrip, GivesTheSameMeshAfterShuffling) {
   }
 }
 
+TEST(RoundTrip, GivesTheSameMeshWithEveryProfileAndEffort) {
+  for (const Named& named : shapes::allShapes()) {
+    for (const Profile profile : {Profile::kPaper, Profile::kFast, Profile::kDefault, Profile::kSmall}) {
+      for (const int effort : {0, 1, 2}) {
+        EXPECT_TRUE(roundTrips(named.shape.mesh, {profile, effort}))
+            << named.name << ", profile " << static_cast<int>(profile) << ", effort " << effort;
+      }
+    }
+  }
+}
+
 TEST(RoundTrip, GivesTheSameBytesTwice) {
   for (const Named& named : shapes::allShapes()) {
     const Result<Encoded> first = encode(named.shape.mesh);

@@ -1,0 +1,159 @@
+#include "codec/candidate.h"
+
+#include "codec/mesh_oracle.h"
+#include "codec/range_coder.h"
+#include "codec/repairs.h"
+#include "codec/script.h"
+#include "codec/walk.h"
+
+namespace tutte {
+namespace {
+
+constexpr Limits kNoLimits{kNone, kNone, kNone};
+
+template <class Statistics>
+Result<WalkedCandidate> walkWith(const Topology& topology, const Candidate& candidate) {
+  RangeWriter valences, degrees;
+  MeshOracle oracle(topology, candidate.components);
+  const SectionHeader& header = candidate.header;
+  Script<Statistics, RangeWriter, MeshOracle> script(header, valences, degrees, oracle);
+  Walk walk(script, header.tie, header.leastDegree(), kNoLimits);
+  if (const Error error = walk.run(); error != Error::kNone) return error;
+  WalkedCandidate walked;
+  walked.header = header;
+  walked.connectivity = std::move(walk.connectivity());
+  walked.start_corners = oracle.startCorners();
+  walked.umbrella_order = oracle.umbrellaOrder();
+  walked.on_boundary = walk.onBoundary();
+  walked.dummy_umbrellas = walk.dummyUmbrellas();
+  walked.valences = std::move(valences);
+  walked.degrees = std::move(degrees);
+  walked.splits = walk.splits();
+  return walked;
+}
+
+// Where the coded mesh's parts stand in the primal topology.
+struct Sources {
+  std::vector<Index> corners, faces, umbrellas;
+};
+
+std::vector<Index> expandCorners(const Topology& topology, const std::vector<Index>& start_corners) {
+  std::vector<Index> corners;
+  corners.reserve(topology.twin.size());
+  for (const Index start : start_corners) {
+    Index corner = start;
+    do {
+      corners.push_back(corner);
+      corner = topology.faces.next(corner);
+    } while (corner != start);
+  }
+  return corners;
+}
+
+Sources primalSources(const Topology& topology, WalkedCandidate& walked) {
+  Sources sources{expandCorners(topology, walked.start_corners), {}, std::move(walked.umbrella_order)};
+  for (const Index start : walked.start_corners) sources.faces.push_back(topology.faces.face[start]);
+  return sources;
+}
+
+Sources dualSources(const DualTopology& dual, const PrimalMesh& primal, const Topology& primal_topology,
+                    const WalkedCandidate& walked) {
+  Sources sources;
+  const std::vector<Index> dual_corners = expandCorners(dual.topology, walked.start_corners);
+  for (const Index c : primal.dual_corner) sources.corners.push_back(dual.primal_corner[dual_corners[c]]);
+  Index first = 0;
+  for (const Index degree : primal.connectivity.face_degrees) {
+    sources.faces.push_back(primal_topology.faces.face[sources.corners[first]]);
+    first += degree;
+  }
+  for (const Index start : walked.start_corners) {
+    sources.umbrellas.push_back(dual.primal_umbrella[dual.topology.faces.face[start]]);
+  }
+  return sources;
+}
+
+Index original(const std::vector<Index>& sources, Index index) { return sources.empty() ? index : sources[index]; }
+
+// Fills in the orders of faces and corners, and notes flips and strays.
+RepairNotes orderFaces(const Topology& topology, const Sources& sources, PolygonView mesh, Encoded& encoded) {
+  RepairNotes notes;
+  for (const Index face : sources.faces) {
+    encoded.face_order.push_back(original(topology.source_face, face));
+    if (!topology.flipped.empty()) notes.flipped.push_back(topology.flipped[face]);
+  }
+  encoded.corner_order.reserve(mesh.corners.size());
+  for (const Index corner : sources.corners) encoded.corner_order.push_back(original(topology.source_corner, corner));
+  if (topology.strays.empty()) return notes;
+  std::vector<Index> first(mesh.face_degrees.size() + 1, 0);
+  for (size_t f = 0; f < mesh.face_degrees.size(); ++f) first[f + 1] = first[f] + mesh.face_degrees[f];
+  for (const Index face : topology.strays) {
+    encoded.face_order.push_back(face);
+    notes.stray_degrees.push_back(mesh.face_degrees[face]);
+    for (Index c = first[face]; c < first[face + 1]; ++c) encoded.corner_order.push_back(c);
+  }
+  return notes;
+}
+
+// Numbers the vertices by their first umbrella, isolated ones last.
+void orderVertices(const Topology& topology, const Sources& sources, PolygonView mesh, Encoded& encoded,
+                   RepairNotes& notes) {
+  std::vector<Index> number(mesh.vertex_count, kNone), vertices;
+  encoded.vertex_order.reserve(mesh.vertex_count);
+  const auto meet = [&](Index vertex) {
+    if (number[vertex] == kNone) {
+      number[vertex] = static_cast<Index>(encoded.vertex_order.size());
+      encoded.vertex_order.push_back(vertex);
+    }
+    vertices.push_back(number[vertex]);
+  };
+  for (const Index umbrella : sources.umbrellas) meet(topology.vertex_of[umbrella]);
+  for (size_t i = sources.corners.size(); i < encoded.corner_order.size(); ++i) {
+    meet(mesh.corners[encoded.corner_order[i]]);  // strays
+  }
+  if (vertices.size() != encoded.vertex_order.size()) notes.vertices = std::move(vertices);
+  for (Index v = 0; v < mesh.vertex_count; ++v) {
+    if (number[v] != kNone) continue;
+    encoded.vertex_order.push_back(v);
+    ++notes.isolated;
+  }
+}
+
+}  // namespace
+
+Result<WalkedCandidate> walkCandidate(TopologyPair& topologies, const Candidate& candidate) {
+  const Topology& topology = topologies.walked(candidate.header.dual);
+  return withStatistics(candidate.header, [&]<class Statistics>(std::type_identity<Statistics>) {
+    return walkWith<Statistics>(topology, candidate);
+  });
+}
+
+Result<Encoded> finishCandidate(TopologyPair& topologies, WalkedCandidate&& walked, PolygonView mesh) {
+  Encoded encoded;
+  Sources sources;
+  if (walked.header.dual) {
+    Result<PrimalMesh> primal = primalOf(walked.connectivity, walked.dummy_umbrellas, kNoLimits);
+    if (!primal) return primal.error();
+    sources = dualSources(topologies.dual(), *primal, topologies.primal(), walked);
+    walked.connectivity = std::move(primal->connectivity);
+    walked.on_boundary = std::move(primal->on_boundary);
+  } else {
+    sources = primalSources(topologies.primal(), walked);
+  }
+  RepairNotes notes = orderFaces(topologies.primal(), sources, mesh, encoded);
+  orderVertices(topologies.primal(), sources, mesh, encoded, notes);
+  encoded.connectivity = std::move(walked.connectivity);
+  walked.header.repairs = notes.any();
+  if (notes.any()) {
+    RepairCoder coder(walked.valences, notes, walked.on_boundary, kNoLimits, encoded.connectivity);
+    if (const Error error = coder.run(); error != Error::kNone) return error;
+  }
+  const std::vector<uint8_t> valence_bytes = std::move(walked.valences).finish();
+  const std::vector<uint8_t> degree_bytes = std::move(walked.degrees).finish();
+  encoded.splits = walked.splits;
+  encoded.valence_bytes = static_cast<uint32_t>(valence_bytes.size());
+  encoded.degree_bytes = static_cast<uint32_t>(degree_bytes.size());
+  encoded.bytes = writeSection(walked.header, {valence_bytes, degree_bytes});
+  return encoded;
+}
+
+}  // namespace tutte

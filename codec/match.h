@@ -1,0 +1,76 @@
+#pragma once
+// Predicts that what followed the last few symbols before will follow them again.
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/mesh.h"
+#include "codec/mixer.h"
+
+namespace tutte {
+
+class MatchModel {
+ public:
+  static constexpr Index kNoSymbol = 255;
+
+  explicit MatchModel(bool used) : used_(used) {
+    if (used) positions_.assign(size_t{1} << kTableBits, 0);
+  }
+
+  /// The symbol that the match expects next, or kNoSymbol. Symbols are valences (0 for a split) or, plus 128, degrees
+  /// (1 for a dummy face), each up to 100.
+  Index expected() const { return length_ == 0 ? kNoSymbol : history_[position_]; }
+
+  /// How far the match reaches back, in 8 steps; 0 without a match.
+  int lengthClass() const {
+    constexpr int kSteps[] = {1, 8, 12, 16, 24, 32, 64};
+    int step = 0;
+    while (step < 7 && length_ >= kSteps[step]) ++step;
+    return step;
+  }
+
+  /// The slot of the opinion that a decision goes the way the expected symbol says.
+  Slot& opinion(bool expected_bit) { return slots_[lengthClass() * 2 + expected_bit]; }
+
+  void add(Index symbol) {
+    if (!used_) return;
+    if (length_ > 0 && history_[position_] == symbol) {
+      ++position_;
+      if (length_ < 65535) ++length_;
+    } else {
+      length_ = 0;
+    }
+    history_.push_back(static_cast<uint8_t>(symbol));
+    key_ = (key_ << 8 | (symbol + 1)) & 0xFFFFFFFFFFFFu;
+    if (history_.size() < kLeast) return;
+    Index& latest = positions_[key_ * 0x9E3779B97F4A7C15u >> (64 - kTableBits)];
+    if (length_ == 0 && latest != 0) find(latest);
+    latest = static_cast<Index>(history_.size());
+  }
+
+ private:
+  static constexpr int kTableBits = 13;
+  static constexpr int kLeast = 6, kMost = 32;
+
+  void find(Index candidate) {
+    const size_t end = history_.size();
+    int length = 0;
+    while (length < kMost && static_cast<Index>(length) < candidate &&
+           history_[candidate - 1 - length] == history_[end - 1 - length]) {
+      ++length;
+    }
+    if (length < kLeast) return;
+    position_ = candidate;
+    length_ = length;
+  }
+
+  bool used_;
+  uint64_t key_ = 0;
+  Index position_ = 0;
+  int length_ = 0;
+  std::vector<uint8_t> history_;
+  std::vector<Index> positions_;
+  std::array<Slot, 16> slots_;
+};
+
+}  // namespace tutte

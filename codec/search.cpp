@@ -1,0 +1,150 @@
+#include "codec/search.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace tutte {
+namespace {
+
+// The degree of all faces, if they have one and it is small.
+Index uniformDegree(const Topology& topology) {
+  const auto& first = topology.faces.first;
+  const Index degree = topology.real_faces == 0 ? 3 : first[1];
+  if (degree > 15) return 0;
+  for (Index f = 0; f < topology.real_faces; ++f) {
+    if (first[f + 1] - first[f] != degree) return 0;
+  }
+  return degree;
+}
+
+// Lines per context: enough for the mesh, few enough to be cleared in no time.
+int tableBitsFor(const Topology& topology) {
+  return std::clamp(static_cast<int>(std::bit_width(topology.valence.size())) - 4, 7, 11);
+}
+
+// Small meshes get the best profile, because their time does not count; huge ones the fastest.
+Profile profileFor(size_t corners) {
+  if (corners <= 40'000) return Profile::kSmall;
+  return corners <= 40'000'000 ? Profile::kDefault : Profile::kFast;
+}
+
+class Search {
+ public:
+  Search(TopologyPair& topologies, const EncodeOptions& options) : topologies_(topologies), options_(options) {}
+
+  Result<WalkedCandidate> run() {
+    const size_t corners = std::max<size_t>(1, topologies_.primal().twin.size());
+    profile_ = options_.profile ? *options_.profile : profileFor(corners);
+    trials_left_ = trialsFor(options_.effort, corners);
+    if (const Error error = tryFirst(false); error != Error::kNone) return error;
+    if (trials_left_ > 0) tryVariants();
+    if (trials_left_ > 2 && !best_candidate_.header.degreesKnown()) tryDual();
+    trySeeds();
+    while (best_candidate_.header.table_bits > mostTableBits(best_.bits() / 8)) {
+      --best_candidate_.header.table_bits;
+      Result<WalkedCandidate> walked = walkCandidate(topologies_, best_candidate_);
+      if (!walked) return walked.error();
+      best_ = std::move(*walked);
+    }
+    return std::move(best_);
+  }
+
+ private:
+  // How often a mesh is walked at most, besides the first time.
+  static size_t trialsFor(int effort, size_t corners) {
+    constexpr size_t kCorners[] = {0, 100'000, 4'000'000, 80'000'000};
+    constexpr size_t kMost[] = {0, 8, 100, 2000};
+    effort = std::clamp(effort, 0, 3);
+    return std::min(kMost[effort], kCorners[effort] / corners);
+  }
+
+  Candidate candidateFor(bool dual) {
+    Topology& topology = topologies_.walked(dual);
+    Candidate candidate;
+    candidate.components = planComponents(topology, dual ? Repeats::kCopies : Repeats::kMirrored);
+    SectionHeader& header = candidate.header;
+    header.dual = dual;
+    header.closed = topologies_.primal().faces.faceCount() == topologies_.primal().real_faces;
+    header.uniform_degree = uniformDegree(topology);
+    header.copies = std::any_of(candidate.components.begin(), candidate.components.end(),
+                                [](const ComponentPlan& plan) { return plan.original != kNone; });
+    header.profile = profile_;
+    header.table_bits = tableBitsFor(topology);
+    header.match = profile_ >= Profile::kDefault && header.uniform_degree == 0;
+    return candidate;
+  }
+
+  Error tryFirst(bool dual) {
+    Candidate candidate = candidateFor(dual);
+    Result<WalkedCandidate> walked = walkCandidate(topologies_, candidate);
+    if (!walked) return walked.error();
+    keep(std::move(candidate), std::move(*walked));
+    return Error::kNone;
+  }
+
+  void keep(Candidate&& candidate, WalkedCandidate&& walked) {
+    best_candidate_ = std::move(candidate);
+    best_ = std::move(walked);
+  }
+
+  // Keeps the candidate if it is smaller.
+  void attempt(Candidate candidate) {
+    if (trials_left_ == 0) return;
+    --trials_left_;
+    Result<WalkedCandidate> walked = walkCandidate(topologies_, candidate);
+    if (walked && walked->bits() < best_.bits()) keep(std::move(candidate), std::move(*walked));
+  }
+
+  void tryVariants() {
+    attempt(withTie(best_candidate_, TieRule::kNewestFirst));
+    if (best_candidate_.header.match) {
+      Candidate unmatched = best_candidate_;
+      unmatched.header.match = false;
+      attempt(std::move(unmatched));
+    }
+  }
+
+  void tryDual() {
+    const Candidate dual = candidateFor(true);
+    attempt(dual);
+    attempt(withTie(dual, TieRule::kNewestFirst));
+  }
+
+  static Candidate withTie(Candidate candidate, TieRule tie) {
+    candidate.header.tie = tie;
+    return candidate;
+  }
+
+  // Other seeds for components, large ones more often than small ones.
+  void trySeeds() {
+    if (trials_left_ == 0 || topologies_.primal().real_faces == 0) return;
+    const Topology& topology = topologies_.walked(best_candidate_.header.dual);
+    const std::vector<Index> component_of = componentsOfFaces(topology, best_candidate_.components);
+    const Index corners = topology.faces.first[topology.real_faces];
+    uint64_t random = 1;
+    for (size_t misses = 0; trials_left_ > 0 && misses < 10'000; ++misses) {
+      random = random * 6364136223846793005u + 1442695040888963407u;
+      const Index seed = static_cast<Index>((random >> 33) % corners);
+      const Index component = component_of[topology.faces.face[seed]];
+      if (best_candidate_.components[component].original != kNone) continue;
+      Candidate candidate = best_candidate_;
+      moveSeed(topology, candidate.components, component, seed);
+      attempt(std::move(candidate));
+    }
+  }
+
+  TopologyPair& topologies_;
+  const EncodeOptions& options_;
+  Profile profile_ = Profile::kDefault;
+  size_t trials_left_ = 0;
+  Candidate best_candidate_;
+  WalkedCandidate best_;
+};
+
+}  // namespace
+
+Result<WalkedCandidate> searchCandidates(TopologyPair& topologies, const EncodeOptions& options) {
+  return Search(topologies, options).run();
+}
+
+}  // namespace tutte

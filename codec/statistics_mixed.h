@@ -1,0 +1,197 @@
+#pragma once
+// The profiles that mix contexts. They differ only in their lists of contexts.
+
+#include <array>
+
+#include "codec/contexts.h"
+#include "codec/gaps.h"
+#include "codec/match.h"
+#include "codec/model.h"
+#include "codec/predictor.h"
+#include "codec/section.h"
+#include "codec/walk.h"
+
+namespace tutte {
+
+template <auto... contexts>
+struct ContextList {
+  static constexpr int kCount = sizeof...(contexts);
+  template <class Features>
+  static std::array<uint64_t, kCount> keys(const Features& features) {
+    return keysOf<contexts...>(features);
+  }
+};
+
+/// One context each, nothing to mix.
+struct FastProfile {
+  using Vertex = ContextList<VertexContext::kPredicted>;
+  using Face = ContextList<FaceContext::kEnds>;
+  static constexpr bool kRich = false;
+};
+
+struct DefaultProfile {
+  using Vertex = ContextList<VertexContext::kPredicted, VertexContext::kHeadRing, VertexContext::kNothing,
+                             VertexContext::kEnds, VertexContext::kSlots, VertexContext::kHistory, VertexContext::kSums>;
+  using Face = ContextList<FaceContext::kEnds, FaceContext::kNearAngle, FaceContext::kHistory, FaceContext::kAround,
+                           FaceContext::kEdge, FaceContext::kLeast, FaceContext::kAngles>;
+  static constexpr bool kRich = false;
+};
+
+struct SmallProfile {
+  using Vertex = ContextList<VertexContext::kPredicted, VertexContext::kHeadRing, VertexContext::kNothing,
+                             VertexContext::kEnds, VertexContext::kSlots, VertexContext::kHistory, VertexContext::kSums,
+                             VertexContext::kPredictedSums, VertexContext::kBeyond, VertexContext::kCurrentRing,
+                             VertexContext::kDegrees, VertexContext::kEndsAndSlots, VertexContext::kDegreeAfter,
+                             VertexContext::kSumsAndSlots, VertexContext::kPredictedSlots>;
+  using Face = ContextList<FaceContext::kEnds, FaceContext::kNearAngle, FaceContext::kHistory, FaceContext::kAround,
+                           FaceContext::kEdge, FaceContext::kLeast, FaceContext::kAngles, FaceContext::kDegrees,
+                           FaceContext::kBehind, FaceContext::kSums, FaceContext::kSlots, FaceContext::kBoth,
+                           FaceContext::kEdgeAndDegrees, FaceContext::kDummies, FaceContext::kNothing>;
+  static constexpr bool kRich = true;
+};
+
+/// The usual valence of a face degree's vertices: the most frequent so far, at least 3.
+class UsualValence {
+ public:
+  UsualValence() {
+    for (Index i = 0; i < 16; ++i) usual_[i] = i == 3 ? 6 : 4;
+  }
+
+  Index of(Index degree_class) const { return usual_[degree_class]; }
+
+  void add(Index degree_class, Index valence) {
+    if (valence < 3 || valence > 15) return;
+    auto& counts = counts_[degree_class];
+    if (++counts[valence] > counts[usual_[degree_class]]) usual_[degree_class] = valence;
+  }
+
+ private:
+  std::array<std::array<Index, 16>, 16> counts_{};
+  std::array<Index, 16> usual_;
+};
+
+template <class Profile>
+class MixedStatistics {
+ public:
+  explicit MixedStatistics(const SectionHeader& header)
+      : header_(header),
+        vertices_(header.table_bits),
+        faces_(header.degreesKnown() ? 1 : header.table_bits),
+        match_(header.match) {}
+
+  template <class Port>
+  FaceAnswer face(Port& port, const FaceQuestion& question, const Gaps& gaps, const FaceAnswer& truth) {
+    contradicted_ = false;
+    const FaceAnswer answer = codeFace(port, question, gaps, truth);
+    history_.addDegree(answer.dummy ? 1 : answer.degree);
+    if (!header_.degreesKnown()) match_.add(128 + (answer.dummy ? 1 : std::min(answer.degree, Index{100})));
+    return answer;
+  }
+
+  template <class Port>
+  Index vertex(Port& port, const VertexQuestion& question, const Gaps& gaps, Index truth) {
+    const Index face = question.face.dummy ? 1 : std::min(question.face.degree, Index{15});
+    const Index usual = usual_.of(face);
+    const VertexFeatures features(question, gaps, usual, history_);
+    vertices_.enter(Profile::Vertex::keys(features));
+    contradicted_ = false;
+    const int situation = static_cast<int>(std::min(face, Index{15}) * 4 + (question.missing > 1) * 2 + (question.index > 0));
+    const bool seed = question.head == kNone;
+    const auto decide = [&](int node, int step, Index asked, bool value) {
+      // `asked` is what the decision asks about; the matched symbol answers it, if it can.
+      return this->decide(port, vertices_, {node, situation + 64 * step}, asked, value);
+    };
+    const Index valence = codeValence(port, usual, seed, truth, decide);
+    usual_.add(face, valence);
+    history_.addValence(valence);
+    match_.add(std::min(valence, Index{100}));
+    return valence;
+  }
+
+ private:
+  static constexpr Index kLongest = 24;
+
+  template <class Port>
+  FaceAnswer codeFace(Port& port, const FaceQuestion& question, const Gaps& gaps, const FaceAnswer& truth) {
+    FaceAnswer answer{question.closed ? question.known_edges : header_.uniform_degree, false};
+    const bool degree_known = answer.degree != 0;
+    const bool may_be_dummy = header_.hasDummyFaces() && question.gap != kNone && !touchesDummy(question, gaps);
+    if (degree_known && !may_be_dummy) return answer;
+    const FaceFeatures features(question, gaps, history_);
+    faces_.enter(Profile::Face::keys(features));
+    const int situation = static_cast<int>(features.behind * 3 + std::min<uint64_t>(features.known, 3) - (features.known > 0));
+    if (may_be_dummy) {
+      answer.dummy = decide(port, faces_, {0, situation}, kAskDummy, truth.dummy);
+      if (answer.dummy) {
+        if (!question.closed) answer.degree = 3 + dummy_degree_.code(port, truth.degree - 3);
+        return answer;
+      }
+    }
+    if (degree_known) return answer;
+    const Index least = std::max(header_.leastDegree(), question.known_edges + 1);
+    Index degree = least;
+    for (; degree < least + kLongest - 4; ++degree) {
+      const int node = static_cast<int>(std::min(degree - 2, Index{kNodes - 1}));
+      const int step = static_cast<int>(1 + std::min(degree - least, Index{2}));
+      if (decide(port, faces_, {node, situation + 64 * step}, kAskDegree + degree, truth.degree == degree)) {
+        return {degree, false};
+      }
+    }
+    return {degree + large_degree_.code(port, truth.degree - degree), false};
+  }
+
+  template <class Port, class Decide>
+  Index codeValence(Port& port, Index usual, bool seed, Index truth, Decide&& decide) {
+    if (decide(0, 0, usual, truth == usual)) return usual;
+    if (decide(1, 1, kAskBelow + usual, truth < usual)) {
+      for (Index v = usual - 1; v >= 3; --v) {
+        if (decide(static_cast<int>(std::min(1 + usual - v, Index{6})), 2, v, truth == v)) return v;
+      }
+      return seed || decide(7, 3, 2, truth == 2) ? 2 : 0;
+    }
+    Index v = usual + 1;
+    for (; v <= usual + kLongest; ++v) {
+      if (decide(static_cast<int>(std::min(7 + v - usual, Index{kNodes - 1})), 4, v, truth == v)) return v;
+    }
+    return v + large_valence_.code(port, truth - v);
+  }
+
+  // What a decision asks: about a valence itself, or one of these.
+  static constexpr Index kAskBelow = 1000, kAskDegree = 2000, kAskDummy = 3000;
+
+  // What the match says to a decision: 0, 1, or 2 for nothing.
+  int matchedAnswer(Index asked) const {
+    const Index expected = match_.expected();
+    if (expected == MatchModel::kNoSymbol) return 2;
+    if (asked == kAskDummy) return expected < 128 ? 2 : expected == 129;
+    if (asked >= kAskDegree) return expected < 128 ? 2 : expected == 128 + asked - kAskDegree;
+    if (expected >= 128) return 2;
+    if (asked >= kAskBelow) return expected < asked - kAskBelow;
+    return expected == asked;
+  }
+
+  template <class Port, class Stream>
+  bool decide(Port& port, Stream& stream, const Selectors& selectors, Index asked, bool value) {
+    const int answer = contradicted_ ? 2 : matchedAnswer(asked);
+    Slot* opinion = answer == 2 ? nullptr : &match_.opinion(answer);
+    const bool bit = stream.code(port, selectors, opinion, opinion ? match_.lengthClass() : 0, value);
+    if (answer != 2 && bit != answer) contradicted_ = true;
+    return bit;
+  }
+
+  static bool touchesDummy(const FaceQuestion& question, const Gaps& gaps) {
+    return gaps[question.gap].dummy || gaps[question.far_gap].dummy || gaps[question.head].dummy ||
+           gaps[question.tail].dummy;
+  }
+
+  const SectionHeader& header_;
+  Predictor<Profile::Vertex::kCount, Profile::kRich> vertices_;
+  Predictor<Profile::Face::kCount, Profile::kRich> faces_;
+  MatchModel match_;
+  History history_;
+  UsualValence usual_;
+  NumberModel large_valence_, large_degree_, dummy_degree_;
+  bool contradicted_ = false;
+};
+
+}  // namespace tutte
