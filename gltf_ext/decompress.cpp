@@ -49,14 +49,6 @@ Outcome<Bytes> attributeBytes(const PolygonMesh& mesh, const CompressedView& vie
   return padElements(attribute.data, attribute.stride(), view.byte_stride);
 }
 
-bool usesExtension(const Json& json) {
-  for (size_t i = 0; i < countOf(json, "bufferViews"); ++i) {
-    const Json* extensions = objectMember(json["bufferViews"][i], "extensions");
-    if (extensions && extensions->contains(kExtensionName)) return true;
-  }
-  return false;
-}
-
 /// Puts decoded bytes behind a view, in a buffer of their own.
 void fillView(Asset& asset, size_t index, Bytes bytes) {
   const uint64_t buffer = appendElement(asset.json, "buffers", {{"byteLength", bytes.size()}});
@@ -73,9 +65,9 @@ void removeTraces(Json& json) {
 }
 
 Outcome<Asset> decompressGuarded(const Asset& asset) {
-  if (!usesExtension(asset.json)) return asset;
   const auto payloads = payloadViewsOf(asset);
   if (!payloads) return payloads.error();
+  if (payloads->empty()) return asset;
   Asset plain = asset;
   for (const auto& [range, views] : *payloads) {
     std::vector<CompressedView> objects;
