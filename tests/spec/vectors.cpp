@@ -27,14 +27,27 @@ void describe(const Connectivity& mesh, std::ostream& out) {
   out << '\n';
 }
 
-bool writeVector(const std::filesystem::path& folder, const shapes::Named& named) {
-  const Result<Encoded> encoded = encode(named.shape.mesh);
+bool writeVector(const std::filesystem::path& folder, const shapes::Named& named, const char* suffix,
+                 const EncodeOptions& options) {
+  const Result<Encoded> encoded = encode(named.shape.mesh, options);
   if (!encoded) return false;
-  std::ofstream section(folder / (named.name + ".section"), std::ios::binary);
+  std::ofstream section(folder / (named.name + suffix + ".section"), std::ios::binary);
   for (uint8_t byte : encoded->bytes) section.put(static_cast<char>(byte));
-  std::ofstream mesh(folder / (named.name + ".mesh"));
+  std::ofstream mesh(folder / (named.name + suffix + ".mesh"));
   describe(encoded->connectivity, mesh);
   return section.good() && mesh.good();
+}
+
+/// One by the encoder's own choice, and one for each profile.
+bool writeVectors(const std::filesystem::path& folder, const shapes::Named& named) {
+  const auto write = [&](const char* suffix, std::optional<Profile> profile, int effort) {
+    EncodeOptions options;
+    options.profile = profile;
+    options.effort = effort;
+    return writeVector(folder, named, suffix, options);
+  };
+  return write("", std::nullopt, 1) && write(".paper", Profile::kPaper, 0) && write(".fast", Profile::kFast, 1) &&
+         write(".default", Profile::kDefault, 0) && write(".small", Profile::kSmall, 2);
 }
 
 }  // namespace
@@ -48,7 +61,7 @@ int main(int argc, char** argv) {
   std::filesystem::remove_all(argv[1]);
   std::filesystem::create_directories(argv[1]);
   for (const tutte::shapes::Named& named : tutte::shapes::allShapes()) {
-    if (tutte::writeVector(argv[1], named)) continue;
+    if (tutte::writeVectors(argv[1], named)) continue;
     std::fprintf(stderr, "%s: not written\n", named.name.c_str());
     return 1;
   }

@@ -1,0 +1,251 @@
+"""How degrees and valences are read, by profile: EXTENSION_SPEC.md, B.6 (paper) and B.8 (fast, default, small)."""
+from models import Bit, Match, Mixer, Number, Symbol, clamp
+
+
+def compared(value, regular):
+    return (value > regular) - (value < regular)
+
+
+class Paper:
+    def __init__(self, section):
+        self.section = section
+        self.dummy = [Bit() for _ in range(7)]
+        self.degree = [Symbol() for _ in range(7)]
+        self.valence = [Symbol() for _ in range(8)]
+        self.dummy_degree, self.large_degree, self.large_valence = Number(), Number(), Number()
+
+    def face(self, stream, walk, start, edges, closed):
+        context = self.face_context(walk.gaps, start)
+        degree = edges if closed else self.section.uniform_degree
+        if degree:
+            dummy = self.section.dummy_faces and start is not None and self.dummy[context].read(stream)
+            if dummy and not closed:
+                degree = 3 + self.dummy_degree.read(stream)
+            return degree, bool(dummy)
+        symbol = self.degree[context].read(stream)
+        if symbol == 1:
+            return 16 + self.large_degree.read(stream), False
+        if symbol == 2:
+            return 3 + self.dummy_degree.read(stream), True
+        return symbol, False
+
+    @staticmethod
+    def face_context(gaps, start):
+        if start is None:
+            return 0
+        behind = gaps[start].degree_behind
+        if behind not in (3, 4):
+            return 0
+        valences = gaps[start].valence + gaps[gaps[start].next].valence
+        return (2 if behind == 3 else 5) + compared(valences, 12 if behind == 3 else 8)
+
+    def vertex(self, stream, walk):
+        degree = 0 if walk.dummy else walk.degree
+        context = 0
+        if degree == 5:
+            context = 1
+        elif degree == 3:
+            context = 3 + compared(walk.valence_sum, 6 * walk.known)
+        elif degree == 4:
+            context = 6 + compared(walk.valence_sum, 4 * walk.known)
+        symbol = self.valence[context].read(stream)
+        return 16 + self.large_valence.read(stream) if symbol == 1 else symbol
+
+
+def packed(*fields):
+    key = shift = 0
+    for value, bits in fields:
+        key |= value << shift
+        shift += bits
+    return key
+
+
+def sides(angle):
+    return min(30, 4096 // (1024 - clamp(angle >> 6, 0, 1023)))
+
+
+def quotient(a, b):
+    return a // b if a >= 0 else 0  # what is negative counts as 0 anyway
+
+
+class VertexFeatures:
+    def __init__(self, walk, usual, valences, degrees):
+        gap = lambda number: walk.no_gap if number is None else walk.gaps[number]
+        head, current, edge = gap(walk.head), gap(walk.current), gap(walk.before_tail)
+        after, before = gap(current.next), gap(head.prev)
+        regular = 6 if walk.degree == 3 else 4
+        valence, slots = (lambda g: min(g.valence, 14)), (lambda g: min(g.free, 7))
+        self.face = 1 if walk.dummy else min(walk.degree, 15)
+        self.missing, self.usual = min(walk.missing, 7), usual
+        self.h, self.c, self.b, self.a = valence(head), valence(current), valence(before), valence(after)
+        self.hs, self.cs, self.bs, self.as_ = slots(head), slots(current), slots(before), slots(after)
+        self.hx, self.cx = head.excess(regular), current.excess(regular)
+        self.o = edge.opposite_next if walk.index == 0 and walk.before_tail is not None else 15
+        self.oh = head.opposite_own if walk.missing == 1 and walk.head is not None else 15
+        self.p = sides(quotient(131072 - walk.angle, walk.missing))
+        self.da = min(current.degree_behind, 15)
+        self.ca, self.hb = (self.a if self.cs == 1 else 0), (self.b if self.hs == 1 else 0)
+        self.valences, self.degrees = valences, degrees
+
+
+VERTEX = {
+    'predicted': lambda f: packed((f.p, 5)),
+    'head ring': lambda f: packed((f.h, 4), (f.hx, 4), (f.hs, 3)),
+    'nothing': lambda f: 0,
+    'ends': lambda f: packed((f.h, 4), (f.c, 4), (f.ca, 4), (f.hb, 4), (f.o, 4)),
+    'slots': lambda f: packed((f.hs, 3), (f.cs, 3), (f.as_, 3), (f.bs, 3)),
+    'history': lambda f: packed(*((v, 8) for v in f.valences)),
+    'sums': lambda f: packed((f.h + f.c, 5), (f.o, 4), (f.oh, 4), (f.hx + f.cx, 5)),
+    'predicted sums': lambda f: packed((f.p, 5), (f.hx + f.cx, 5), (f.oh if f.missing == 1 else f.o, 4)),
+    'beyond': lambda f: packed((f.a, 4), (f.b, 4), (int(f.cs == 1), 1), (int(f.hs == 1), 1)),
+    'current ring': lambda f: packed((f.c, 4), (f.cx, 4), (f.cs, 3)),
+    'degrees': lambda f: packed(*((d, 8) for d in f.degrees), (f.valences[0], 8)),
+    'ends and slots': lambda f: packed((f.h, 4), (f.c, 4), (f.ca, 4), (f.hb, 4), (f.hs, 3), (f.cs, 3)),
+    'degree after': lambda f: packed((f.c, 4), (f.cs, 3), (f.da, 4)),
+    'sums and slots': lambda f: packed((f.h + f.c, 5), (f.o, 4), (f.hx // 3, 3), (f.cx // 3, 3), (f.hs, 3), (f.cs, 3)),
+    'predicted slots': lambda f: packed((f.p, 5), (f.hs, 3), (f.cs, 3)),
+}
+
+
+class FaceFeatures:
+    def __init__(self, walk, start, edges, head, tail, valences, degrees):
+        gap = lambda number: walk.no_gap if number is None else walk.gaps[number]
+        near, far = gap(start), gap(gap(start).next)
+        head, tail = gap(head), gap(tail)
+        before = gap(head.prev)
+        valence, slots, degree = (lambda g: min(g.valence, 14)), (lambda g: min(g.free, 7)), (
+            lambda g: min(g.degree_behind, 15))
+        self.known, self.least = min(edges, 15), min(max(3, edges + 1), 9)
+        self.n, self.f, self.h, self.t = valence(near), valence(far), valence(head), valence(tail)
+        self.ns, self.hs, self.ts = slots(near), slots(head), slots(tail)
+        self.behind, self.bt, self.bh = degree(near), degree(tail), degree(before)
+        self.pn, self.pf = self.predicted(near), self.predicted(far)
+        self.dummies = near.dummy | far.dummy << 1 | head.dummy << 2 | tail.dummy << 3
+        self.x = (head.excess(4) + tail.excess(4)) // 2
+        self.valences, self.degrees = valences, degrees
+
+    @staticmethod
+    def predicted(gap):
+        return sides(quotient(131072 - gap.angle, gap.free + 1))
+
+
+FACE = {
+    'ends': lambda f: packed((f.h, 4), (f.t, 4), (f.known, 4)),
+    'near angle': lambda f: packed((f.pn, 5), (min(f.ns, 2), 2), (f.behind, 4)),
+    'history': lambda f: packed((f.degrees[0], 8), (f.degrees[1], 8)),
+    'around': lambda f: packed((f.h, 4), (f.t, 4), (f.hs, 3), (f.ts, 3), (f.behind, 4), (f.bh, 4), (f.known, 4)),
+    'edge': lambda f: packed((f.behind, 4), (f.n, 4), (f.f, 4)),
+    'least': lambda f: packed((f.least, 4), (f.dummies, 4)),
+    'angles': lambda f: packed((f.pn, 5), (f.pf, 5), (f.known, 4), (f.least, 4)),
+    'degrees': lambda f: packed((f.behind, 4), (f.bh, 4), (f.bt, 4)),
+    'behind': lambda f: packed((f.behind, 4)),
+    'sums': lambda f: packed((f.x, 4), (f.known, 4), (f.behind, 4), (f.least, 4)),
+    'slots': lambda f: packed((f.known, 4), (f.hs, 3), (f.ts, 3), (f.behind, 4)),
+    'both': lambda f: packed(*(pair for d, v in zip(f.degrees, f.valences) for pair in ((min(d, 127), 7), (min(v, 127), 7)))),
+    'edge and degrees': lambda f: packed((f.n, 4), (f.f, 4), (f.known, 4), (f.behind, 4), (f.bt, 4)),
+    'dummies': lambda f: packed((f.dummies, 4), (f.behind, 4), (f.bh, 4), (f.bt, 4)),
+    'nothing': lambda f: 0,
+}
+
+DEFAULT_VERTEX = ['predicted', 'head ring', 'nothing', 'ends', 'slots', 'history', 'sums']
+DEFAULT_FACE = ['ends', 'near angle', 'history', 'around', 'edge', 'least', 'angles']
+PROFILES = {
+    1: (['predicted'], ['ends'], False),
+    2: (DEFAULT_VERTEX, DEFAULT_FACE, False),
+    3: (DEFAULT_VERTEX + ['predicted sums', 'beyond', 'current ring', 'degrees', 'ends and slots', 'degree after',
+                          'sums and slots', 'predicted slots'],
+        DEFAULT_FACE + ['degrees', 'behind', 'sums', 'slots', 'both', 'edge and degrees', 'dummies', 'nothing'], True),
+}
+
+
+class Mixed:
+    def __init__(self, section):
+        self.section = section
+        self.vertex_contexts, self.face_contexts, rich = PROFILES[section.profile]
+        self.vertices = Mixer(len(self.vertex_contexts), rich, section.table_bits)
+        self.faces = Mixer(len(self.face_contexts), rich, section.table_bits)
+        self.match = Match(section.match)
+        self.valences, self.degrees = [0, 0, 0], [0, 0, 0]
+        self.counts = [[0] * 16 for _ in range(16)]
+        self.usual = [6 if i == 3 else 4 for i in range(16)]
+        self.dummy_degree, self.large_degree, self.large_valence = Number(), Number(), Number()
+
+    def decide(self, stream, mixer, node, situation, answer):
+        """`answer` maps the expected symbol to the bit that it means, or to None."""
+        expected = None if self.contradicted else self.match.expected()
+        told = None if expected is None else answer(expected)
+        opinion = None if told is None else self.match.opinion(told)
+        bit = mixer.read(stream, node, situation, opinion, self.match.length_class() if opinion else 0)
+        if told is not None and bit != told:
+            self.contradicted = True
+        return bit
+
+    def face(self, stream, walk, start, edges, closed):
+        self.contradicted = False
+        degree, dummy = self.read_face(stream, walk, start, edges, closed)
+        symbol = 1 if dummy else degree
+        self.degrees = [min(symbol, 255)] + self.degrees[:2]
+        if not self.section.degrees_known:
+            self.match.add(128 + min(symbol, 100))
+        return degree, dummy
+
+    def read_face(self, stream, walk, start, edges, closed):
+        degree = edges if closed else self.section.uniform_degree
+        gaps = walk.gaps
+        may_be_dummy = self.section.dummy_faces and start is not None and not any(
+            gaps[g].dummy for g in (start, gaps[start].next, walk.face_head, walk.face_tail))
+        if degree and not may_be_dummy:
+            return degree, False
+        f = FaceFeatures(walk, start, edges, walk.face_head, walk.face_tail, self.valences, self.degrees)
+        self.faces.enter([FACE[name](f) for name in self.face_contexts])
+        situation = f.behind * 3 + min(f.known, 3) - (f.known > 0)
+        if may_be_dummy:
+            if self.decide(stream, self.faces, 0, situation, lambda s: int(s == 129) if s >= 128 else None):
+                return (degree if closed else 3 + self.dummy_degree.read(stream)), True
+        if degree:
+            return degree, False
+        least = max(self.section.least_degree, edges + 1)
+        for degree in range(least, least + 20):
+            node, step = min(degree - 2, 15), 1 + min(degree - least, 2)
+            told = lambda s: int(s == 128 + degree) if s >= 128 else None
+            if self.decide(stream, self.faces, node, situation + 64 * step, told):
+                return degree, False
+        return least + 20 + self.large_degree.read(stream), False
+
+    def vertex(self, stream, walk):
+        face = 1 if walk.dummy else min(walk.degree, 15)
+        usual = self.usual[face]
+        f = VertexFeatures(walk, usual, self.valences, self.degrees)
+        shared = (f.face | f.missing << 4 | f.usual << 7) << 44
+        self.vertices.enter([VERTEX[name](f) | shared for name in self.vertex_contexts])
+        self.contradicted = False
+        situation = face * 4 + (walk.missing > 1) * 2 + (walk.index > 0)
+        valence = self.read_valence(stream, usual, situation, walk.head is None)
+        self.count(face, valence)
+        self.valences = [min(valence, 255)] + self.valences[:2]
+        self.match.add(min(valence, 100))
+        return valence
+
+    def read_valence(self, stream, usual, situation, seed):
+        def decide(node, step, told):
+            return self.decide(stream, self.vertices, node, situation + 64 * step,
+                               lambda s: int(told(s)) if s < 128 else None)
+
+        if decide(0, 0, lambda s: s == usual):
+            return usual
+        if decide(1, 1, lambda s: s < usual):
+            for v in range(usual - 1, 2, -1):
+                if decide(min(1 + usual - v, 6), 2, lambda s: s == v):
+                    return v
+            return 2 if seed or decide(7, 3, lambda s: s == 2) else 0
+        for v in range(usual + 1, usual + 25):
+            if decide(min(7 + v - usual, 15), 4, lambda s: s == v):
+                return v
+        return usual + 25 + self.large_valence.read(stream)
+
+    def count(self, face, valence):
+        if 3 <= valence <= 15:
+            counts = self.counts[face]
+            counts[valence] += 1
+            if counts[valence] > counts[self.usual[face]]:
+                self.usual[face] = valence
