@@ -28,12 +28,10 @@ class DiagonalModel {
   Index code(Port& port, Index face, Index first_corner, Index apex) {
     std::array<int, 2> votes{};
     for (Index i = 0; i < 4; ++i) count(first_corner, i, votes);
-    const bool guess = votes[1] > votes[0];
-    const int more = std::min(std::max(votes[0], votes[1]), 2);
-    const int fewer = std::min({votes[0], votes[1], 2});
-    const bool wrong = models_[(more * 3 + fewer) * 2 + last_wrong_].code(port, (apex != 0) != guess);
-    last_wrong_ = wrong;
-    return diagonal_[face] = guess != wrong;
+    const int context = std::min(votes[0], 2) * 3 + std::min(votes[1], 2);
+    const bool diagonal = models_[context * 2 + last_wrong_].code(port, apex != 0);
+    last_wrong_ = diagonal != (votes[1] > votes[0]);
+    return diagonal_[face] = diagonal;
   }
 
  private:
