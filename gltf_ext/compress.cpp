@@ -11,13 +11,11 @@
 #include "gltf_ext/gather.h"
 #include "gltf_ext/plan.h"
 #include "gltf_ext/polygons.h"
+#include "gltf_ext/primitive_writer.h"
 #include "gltf_ext/references.h"
 
 namespace tutte {
 namespace {
-
-/// "POSITION@3" to "POSITION".
-std::string baseName(const std::string& name) { return name.substr(0, name.find('@')); }
 
 /// Removes the attributes that are not to be kept. A morph target that would become empty stays as it is, because
 /// glTF has no empty ones.
@@ -115,7 +113,12 @@ class Compressor {
     const auto emitted = emitter_.add(packed->bytes, *decoded, groups->wishes, groups->index_bytes);
     if (!emitted) return at(plan, emitted.error());
     addReport(plan, mesh, *std::move(packed));
-    rewrite(plan, *groups, *emitted);
+    PrimitiveWriter writer(asset_, report_.warnings);
+    writer.replaceAttributes(plan, *emitted);
+    for (size_t i = 0; i < groups->primitives.size(); ++i) {
+      const size_t group = groups->group_of[i];
+      writer.write(groups->primitives[i], group, emitted->groups[group], groups->wishes[group].notation);
+    }
     return Done{};
   }
 
@@ -201,79 +204,6 @@ class Compressor {
     report_.payloads.push_back({stringMember(first, "name"), mesh.polygons.vertex_count, mesh.wedge_count,
                                 mesh.polygons.face_degrees.size(), mesh.polygons.corners.size(), mesh.group_count,
                                 std::move(packed)});
-  }
-
-  /// Points the primitives to new accessors. Old ones stay until nobody uses them.
-  void rewrite(const PayloadPlan& plan, const Groups& groups, const EmittedPayload& emitted) {
-    std::map<uint64_t, uint64_t> replaced;
-    for (size_t i = 0; i < plan.attributes.size(); ++i) {
-      const PlannedAttribute& planned = plan.attributes[i];
-      replaced[planned.accessor] = addAccessor(planned.accessor, emitted.attributes[i], baseName(planned.name));
-    }
-    std::map<size_t, Json> group_members;
-    for (size_t i = 0; i < groups.primitives.size(); ++i) {
-      Json& primitive = groups.primitives[i].in(asset_.json);
-      replaceAll(primitive["attributes"], replaced);
-      if (member(primitive, "targets")) {
-        for (Json& target : primitive["targets"]) replaceAll(target, replaced);
-      }
-      const size_t group = groups.group_of[i];
-      if (!group_members.count(group)) group_members[group] = addGroupAccessors(primitive, emitted.groups[group]);
-      writeGroup(primitive, group_members[group], emitted.groups[group], groups.primitives[i],
-                 groups.wishes[group].notation);
-    }
-  }
-
-  static void replaceAll(Json& references, const std::map<uint64_t, uint64_t>& replaced) {
-    for (Json& reference : references) reference = replaced.at(*asInteger(reference));
-  }
-
-  /// The old accessor's name and extras, the new one's data. Bounds are given where glTF or the old one has them.
-  uint64_t addAccessor(uint64_t old_index, const Json& emitted, const std::string& name) {
-    const Json& old = asset_.json["accessors"][old_index];
-    Json accessor = emitted;
-    if (name != "POSITION" && !old.contains("min") && !old.contains("max")) {
-      accessor.erase("min");
-      accessor.erase("max");
-    }
-    for (const char* key : {"name", "extras", "extensions"}) {
-      if (old.contains(key)) accessor[key] = old[key];
-    }
-    return appendElement(asset_.json, "accessors", std::move(accessor));
-  }
-
-  Json addGroupAccessors(const Json& primitive, const EmittedGroup& group) {
-    Json members = Json::object();
-    Json indices = group.indices;
-    const auto old = integerMember(primitive, "indices", "");
-    for (const char* key : {"name", "extras"}) {
-      if (old && asset_.json["accessors"][*old].contains(key)) indices[key] = asset_.json["accessors"][*old][key];
-    }
-    members["indices"] = appendElement(asset_.json, "accessors", std::move(indices));
-    if (group.polygons == 0) return members;
-    members["polygon"] = {{"count", group.polygons},
-                          {"indicesOffsets", appendElement(asset_.json, "accessors", group.index_offsets)},
-                          {"loopIndices", appendElement(asset_.json, "accessors", group.loops)},
-                          {"loopIndicesOffsets", appendElement(asset_.json, "accessors", group.loop_offsets)}};
-    return members;
-  }
-
-  void writeGroup(Json& primitive, const Json& members, const EmittedGroup& group, PrimitivePlace place,
-                  PolygonNotation wish) {
-    primitive["indices"] = members["indices"];
-    primitive.erase("mode");
-    eraseExtension(primitive, "FB_ngon_encoding");
-    if (group.fans) primitive["extensions"]["FB_ngon_encoding"] = Json::object();
-    if (group.polygons > 0) {
-      Json& polygon = primitive["extensions"]["EXT_mesh_polygon"];
-      polygon.update(members["polygon"]);
-    } else {
-      eraseExtension(primitive, "EXT_mesh_polygon");
-    }
-    if ((wish == PolygonNotation::kFb || wish == PolygonNotation::kBoth) && !group.fans) {
-      report_.warnings.push_back(unsupported(
-          place.pointer(), "not all polygons are fans that differ in their first vertex: EXT_mesh_polygon is used"));
-    }
   }
 
   /// Lists the polygon extensions that are in use after all. Primitives that stayed as they are count, too.
