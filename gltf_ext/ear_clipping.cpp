@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "gltf_ext/point_grid.h"
+
 namespace tutte {
 namespace {
 
@@ -18,65 +20,6 @@ struct Node {
   Index next;
   bool reflex = false;
   bool clipped = false;
-};
-
-/// Reflex nodes by place, so that an ear is compared with its neighbourhood only.
-class ReflexGrid {
- public:
-  void build(const std::vector<Node>& nodes) {
-    low_ = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
-    Point2 high{-low_.x, -low_.y};
-    Index count = 0;
-    for (const Node& node : nodes) {
-      low_ = {std::min(low_.x, node.at.x), std::min(low_.y, node.at.y)};
-      high = {std::max(high.x, node.at.x), std::max(high.y, node.at.y)};
-      count += node.reflex;
-    }
-    side_ = std::clamp(static_cast<int>(std::sqrt(count / 2.0)), 1, 512);
-    scale_ = std::min(side_ / std::max(high.x - low_.x, high.y - low_.y), std::numeric_limits<double>::max());
-    fill(nodes);
-  }
-
-  /// Calls visit(node) for the reflex nodes of every cell that the box touches, until it returns true.
-  template <class Visit>
-  bool any(const Point2& low, const Point2& high, int64_t& budget, Visit visit) const {
-    for (int y = cell(low.y - low_.y); y <= cell(high.y - low_.y); ++y) {
-      for (int x = cell(low.x - low_.x); x <= cell(high.x - low_.x); ++x) {
-        const size_t at = static_cast<size_t>(y) * side_ + x;
-        --budget;
-        for (Index i = starts_[at]; i < starts_[at + 1]; ++i) {
-          if (visit(members_[i])) return true;
-        }
-      }
-    }
-    return false;
-  }
-
- private:
-  int cell(double offset) const { return static_cast<int>(std::clamp(offset * scale_, 0.0, side_ - 1.0)); }
-
-  size_t cellOf(const Point2& at) const {
-    return static_cast<size_t>(cell(at.y - low_.y)) * side_ + cell(at.x - low_.x);
-  }
-
-  void fill(const std::vector<Node>& nodes) {
-    starts_.assign(static_cast<size_t>(side_) * side_ + 1, 0);
-    for (const Node& node : nodes) {
-      if (node.reflex) ++starts_[cellOf(node.at) + 1];
-    }
-    for (size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
-    members_.resize(starts_.back());
-    std::vector<Index> ends(starts_.begin(), starts_.end() - 1);
-    for (Index i = 0; i < nodes.size(); ++i) {
-      if (nodes[i].reflex) members_[ends[cellOf(nodes[i].at)]++] = i;
-    }
-  }
-
-  Point2 low_;
-  double scale_ = 1;
-  int side_ = 1;
-  std::vector<Index> starts_;
-  std::vector<Index> members_;
 };
 
 /// How picky the search for the next ear is. When a whole round finds nothing, the next level is tried.
@@ -98,8 +41,12 @@ class EarClipper {
   }
 
   void clip(std::vector<Index>& triangles) {
-    for (Node& node : nodes_) node.reflex = isReflex(node);
-    grid_.build(nodes_);
+    std::vector<Point2> reflex_points;
+    for (Index i = 0; i < nodes_.size(); ++i) {
+      nodes_[i].reflex = isReflex(nodes_[i]);
+      if (nodes_[i].reflex) reflex_nodes_.push_back(i), reflex_points.push_back(nodes_[i].at);
+    }
+    grid_.build(reflex_points);
     auto left = static_cast<Index>(nodes_.size());
     Index at = 0;
     Index since = 0;  // corners looked at since the last success or change of care
@@ -156,8 +103,9 @@ class EarClipper {
   bool isEmpty(const Node& a, const Node& b, const Node& c) {
     const Point2 low{std::min({a.at.x, b.at.x, c.at.x}), std::min({a.at.y, b.at.y, c.at.y})};
     const Point2 high{std::max({a.at.x, b.at.x, c.at.x}), std::max({a.at.y, b.at.y, c.at.y})};
-    return !grid_.any(low, high, budget_, [&](Index i) {
+    return !grid_.any(low, high, budget_, [&](Index number) {
       --budget_;
+      const Index i = reflex_nodes_[number];
       const Node& node = nodes_[i];
       if (node.clipped || !node.reflex || i == b.previous || i == b.next) return false;
       return contains(a.at, b.at, c.at, node.at) && !isHarmlessTwin(a, b, c, node);
@@ -298,7 +246,8 @@ class EarClipper {
   bool flat_found_ = false;
   std::vector<Node> nodes_;
   std::vector<Index> ring_starts_;
-  ReflexGrid grid_;
+  std::vector<Index> reflex_nodes_;
+  PointGrid grid_;
 };
 
 }  // namespace

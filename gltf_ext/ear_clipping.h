@@ -5,12 +5,9 @@
 #include <vector>
 
 #include "codec/mesh.h"
+#include "gltf_ext/point_grid.h"
 
 namespace tutte {
-
-struct Point2 {
-  double x = 0, y = 0;
-};
 
 /// Twice the signed area of a triangle: positive when it turns to the left.
 inline double cross(const Point2& a, const Point2& b, const Point2& c) {

@@ -35,9 +35,17 @@ double quantizationError(const std::vector<float>& values, int components, int b
   return 0.5 * extent / (std::exp2(bits) - 1) * 1.0001 + largest * std::exp2(-22);
 }
 
+/// OBJ and PLY count texture coordinates from the other edge of the picture; going there and back costs rounding.
+double flippingError(const std::vector<float>& values) {
+  double largest = 1;
+  for (float value : values) largest = std::max<double>(largest, std::abs(value));
+  return largest * std::exp2(-23);
+}
+
 double toleranceOf(const Attribute& attribute, const std::vector<float>& values, const PackOptions& options) {
   const int bits = bitsOf(attribute.name, options);
-  if (attribute.type != ComponentType::kFloat || bits == 0) return attribute.normalized ? 1e-6 : 0;
+  if (attribute.type != ComponentType::kFloat) return attribute.normalized ? 1e-6 : 0;
+  if (bits == 0) return attribute.name.starts_with("TEXCOORD_") ? flippingError(values) : 0;
   // A unit vector on the octahedron: steps are wider where it is stretched most.
   if (attribute.name == "NORMAL" || attribute.name == "TANGENT") return 4 / std::exp2(bits);
   return quantizationError(values, attribute.components, bits);

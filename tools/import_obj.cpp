@@ -41,7 +41,7 @@ class Materials : public tinyobj::MaterialReader {
     const fs::path path = fs::path(name).lexically_normal();
     std::ifstream file;
     if (!name.empty() && path.is_relative() && *path.begin() != "..") file.open(folder_ / path);
-    if (!file) {
+    if (!file.is_open()) {
       if (missing.empty() || missing.back() != name) missing.push_back(name);
       return false;
     }

@@ -112,7 +112,8 @@ class OffText {
     const std::string_view found = word();
     const auto value = parseInteger<T>(found);
     if (!value)
-      fail(std::string(what) + " is missing" + (found.empty() ? ": the file ends too early" : "; correct it"));
+      fail(std::string(what) + " is missing; " +
+           (found.empty() ? "the file ends too early, get it once more" : "correct it"));
     return value.value_or(0);
   }
 
@@ -226,7 +227,7 @@ class OffBinary {
 
   bool readFace() {
     uint32_t degree = 0, colors = 0;
-    if (!take(degree) || degree > rest_.size() / 4) return false;
+    if (!take(degree) || degree == 0 || degree > rest_.size() / 4) return false;
     out_.mesh.face_degrees.push_back(degree);
     for (uint32_t i = 0; i < degree; ++i) {
       uint32_t vertex = 0;

@@ -1,7 +1,7 @@
 // PLY, read here because Assimp takes a triangle strip for one large face, and cannot tell where a file is wrong.
 
-#include <bit>
-#include <cstring>
+#include <cctype>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -9,67 +9,11 @@
 #include "tools/import.h"
 #include "tools/indexed_mesh.h"
 #include "tools/ply_header.h"
-#include "tools/text.h"
+#include "tools/ply_values.h"
 #include "tools/values.h"
 
 namespace tutte {
 namespace {
-
-/// The values behind the header, one after the other.
-class PlyValues {
- public:
-  PlyValues(std::span<const uint8_t> bytes, const PlyHeader& header)
-      : bytes_(bytes.subspan(header.size)),
-        text_(reinterpret_cast<const char*>(bytes_.data()), bytes_.size()),
-        format_(header.format) {}
-
-  /// Nothing at the end of the file, or where there is no number.
-  std::optional<double> next(PlyType type) { return format_ == PlyFormat::kText ? nextWordValue() : nextBytes(type); }
-
-  bool atEnd() const { return format_ == PlyFormat::kText ? text_.empty() : bytes_.empty(); }
-
- private:
-  std::optional<double> nextWordValue() {
-    const size_t start = text_.find_first_not_of(" \t\r\n\v\f");
-    text_.remove_prefix(std::min(start, text_.size()));
-    const size_t end = std::min(text_.find_first_of(" \t\r\n\v\f"), text_.size());
-    std::string_view word = text_.substr(0, end);
-    text_.remove_prefix(end);
-    if (const auto integer = parseInteger<int64_t>(word)) return static_cast<double>(*integer);
-    const auto value = parseFloat(word);
-    return value ? std::optional<double>(*value) : std::nullopt;
-  }
-
-  std::optional<double> nextBytes(PlyType type) {
-    switch (type) {
-      case PlyType::kInt8: return take<uint8_t, int8_t>();
-      case PlyType::kUint8: return take<uint8_t, uint8_t>();
-      case PlyType::kInt16: return take<uint16_t, int16_t>();
-      case PlyType::kUint16: return take<uint16_t, uint16_t>();
-      case PlyType::kInt32: return take<uint32_t, int32_t>();
-      case PlyType::kUint32: return take<uint32_t, uint32_t>();
-      case PlyType::kFloat: return take<uint32_t, float>();
-      case PlyType::kDouble: return take<uint64_t, double>();
-    }
-    return {};
-  }
-
-  template <class Bits, class T>
-  std::optional<double> take() {
-    if (bytes_.size() < sizeof(Bits)) return {};
-    Bits bits = 0;
-    for (size_t i = 0; i < sizeof(Bits); ++i) {
-      const size_t shift = 8 * (format_ == PlyFormat::kBigEndian ? sizeof(Bits) - 1 - i : i);
-      bits = static_cast<Bits>(bits | static_cast<Bits>(Bits{bytes_[i]} << shift));
-    }
-    bytes_ = bytes_.subspan(sizeof(Bits));
-    return static_cast<double>(std::bit_cast<T>(bits));
-  }
-
-  std::span<const uint8_t> bytes_;
-  std::string_view text_;
-  PlyFormat format_;
-};
 
 /// What a vertex property is for us: an attribute and which of its components.
 struct Target {
@@ -113,7 +57,8 @@ class PlyReader {
   Outcome<Imported> run() {
     for (const PlyElement& element : header_.elements) {
       if (element.properties.empty()) continue;
-      if (element.count > bytes_left_) return fail(element, 0, "the file is too short for all of them");
+      if (element.count > bytes_left_)
+        return fail(element, 0, "the file is too short for all of them; get it once more");
       if (element.name == "vertex")
         readVertices(element);
       else
@@ -317,19 +262,25 @@ class PlyReader {
                                           : floatAttribute(name, components, values));
   }
 
-  /// Faces whose list has not as many pairs as the face has corners get none.
+  /// Equal pairs get one number. Faces whose list has not as many pairs as the face has corners get none.
   void addCornerTexcoords() {
     std::vector<Index> indices(mesh_.corners.size(), kNone);
+    std::map<std::pair<float, float>, Index> numbers;
+    std::vector<float> values;
     texcoord_starts_.resize(mesh_.face_degrees.size() + 1, texcoords_.size());
     size_t corner = 0;
     for (size_t face = 0; face < mesh_.face_degrees.size(); corner += mesh_.face_degrees[face++]) {
-      const size_t start = texcoord_starts_[face] / 2;
-      if (texcoord_starts_[face + 1] / 2 - start != mesh_.face_degrees[face]) continue;
-      for (Index i = 0; i < mesh_.face_degrees[face]; ++i) indices[corner + i] = static_cast<Index>(start + i);
+      const size_t start = texcoord_starts_[face];
+      if (texcoord_starts_[face + 1] - start != size_t{2} * mesh_.face_degrees[face]) continue;
+      for (size_t i = 0; i < mesh_.face_degrees[face]; ++i) {
+        const std::pair pair{texcoords_[start + 2 * i], texcoords_[start + 2 * i + 1]};
+        const auto [found, added] = numbers.try_emplace(pair, static_cast<Index>(numbers.size()));
+        if (added) values.insert(values.end(), {pair.first, pair.second});
+        indices[corner + i] = found->second;
+      }
     }
-    const Attribute all = floatAttribute("TEXCOORD_0", 2, texcoords_);
     std::erase_if(mesh_.vertex_attributes, [](const Attribute& attribute) { return attribute.name == "TEXCOORD_0"; });
-    mesh_.corner_attributes.push_back({all, std::move(indices)});
+    mesh_.corner_attributes.push_back({floatAttribute("TEXCOORD_0", 2, values), std::move(indices)});
   }
 
   PlyHeader header_;

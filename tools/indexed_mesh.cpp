@@ -148,6 +148,41 @@ void warnAboutGaps(const IndexedMesh& mesh, std::vector<std::string>& warnings) 
   }
 }
 
+/// Wedges with equal values, numbered in order of first appearance.
+struct DistinctValues {
+  std::vector<Index> numbers;  ///< per wedge
+  std::vector<Index> firsts;   ///< per number: the first wedge that has it
+};
+
+/// Compares POSITION only, or all attributes, bit by bit.
+DistinctValues distinctValues(const PolygonMesh& mesh, bool positions_only) {
+  const auto compare = [&](Index a, Index b) {
+    for (const Attribute& attribute : mesh.attributes) {
+      if (positions_only && attribute.name != "POSITION") continue;
+      const size_t stride = attribute.stride();
+      const int order = std::memcmp(&attribute.data[a * stride], &attribute.data[b * stride], stride);
+      if (order != 0) return order;
+    }
+    return 0;
+  };
+  std::vector<Index> order(mesh.wedge_count), first(mesh.wedge_count);
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return compare(a, b) < 0; });
+  for (size_t i = 0; i < order.size(); ++i) {
+    first[order[i]] = i > 0 && compare(order[i - 1], order[i]) == 0 ? first[order[i - 1]] : order[i];
+  }
+  DistinctValues result{std::vector<Index>(mesh.wedge_count), {}};
+  for (Index wedge = 0; wedge < mesh.wedge_count; ++wedge) {
+    if (first[wedge] == wedge) {
+      result.numbers[wedge] = static_cast<Index>(result.firsts.size());
+      result.firsts.push_back(wedge);
+    } else {
+      result.numbers[wedge] = result.numbers[first[wedge]];
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 PolygonMesh buildMesh(IndexedMesh mesh, std::vector<std::string>& warnings) {
@@ -182,54 +217,22 @@ PolygonMesh buildMesh(IndexedMesh mesh, std::vector<std::string>& warnings) {
 }
 
 PolygonMesh weld(PolygonMesh mesh, std::vector<std::string>& warnings) {
-  // Equal values get equal numbers, by sorting once per set of attributes.
-  const auto number = [&](bool positions_only, std::vector<Index>& firsts) {
-    std::vector<const Attribute*> keys;
-    for (const Attribute& attribute : mesh.attributes) {
-      if (!positions_only || attribute.name == "POSITION") keys.push_back(&attribute);
-    }
-    const auto compare = [&](Index a, Index b) {
-      for (const Attribute* key : keys) {
-        const size_t stride = key->stride();
-        if (const int order = std::memcmp(&key->data[a * stride], &key->data[b * stride], stride)) return order;
-      }
-      return 0;
-    };
-    std::vector<Index> order(mesh.wedge_count), numbers(mesh.wedge_count);
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-      const int by_value = compare(a, b);
-      return by_value ? by_value < 0 : a < b;
-    });
-    for (size_t i = 0; i < order.size(); ++i) {
-      const bool first = i == 0 || compare(order[i - 1], order[i]) != 0;
-      numbers[order[i]] = first ? order[i] : numbers[order[i - 1]];
-    }
-    for (Index i = 0; i < mesh.wedge_count; ++i) {  // in order of first appearance
-      if (numbers[i] == i)
-        firsts.push_back(i), numbers[i] = static_cast<Index>(firsts.size() - 1);
-      else
-        numbers[i] = numbers[numbers[i]];
-    }
-    return numbers;
-  };
-  std::vector<Index> vertex_firsts, tuple_firsts;
-  const std::vector<Index> vertices = number(true, vertex_firsts);
-  const std::vector<Index> tuples = number(false, tuple_firsts);
+  const DistinctValues vertices = distinctValues(mesh, true);
+  const DistinctValues tuples = distinctValues(mesh, false);
   IndexedMesh indexed;
-  indexed.vertex_count = static_cast<Index>(vertex_firsts.size());
+  indexed.vertex_count = static_cast<Index>(vertices.firsts.size());
   indexed.face_degrees = std::move(mesh.polygons.face_degrees);
   indexed.groups = std::move(mesh.groups);
   indexed.group_count = mesh.group_count;
-  for (Index corner : mesh.polygons.corners) indexed.corners.push_back(vertices[corner]);
+  for (Index corner : mesh.polygons.corners) indexed.corners.push_back(vertices.numbers[corner]);
   for (const Attribute& attribute : mesh.attributes) {
     if (attribute.name == "POSITION") {
-      indexed.vertex_attributes.push_back(gather(attribute, vertex_firsts));
-    } else {
-      std::vector<Index> indices;
-      for (Index corner : mesh.polygons.corners) indices.push_back(tuples[corner]);
-      indexed.corner_attributes.push_back({gather(attribute, tuple_firsts), std::move(indices)});
+      indexed.vertex_attributes.push_back(gather(attribute, vertices.firsts));
+      continue;
     }
+    std::vector<Index> indices;
+    for (Index corner : mesh.polygons.corners) indices.push_back(tuples.numbers[corner]);
+    indexed.corner_attributes.push_back({gather(attribute, tuples.firsts), std::move(indices)});
   }
   return buildMesh(std::move(indexed), warnings);
 }
