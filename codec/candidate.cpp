@@ -1,6 +1,7 @@
 #include "codec/candidate.h"
 
 #include "codec/mesh_oracle.h"
+#include "codec/primal.h"
 #include "codec/range_coder.h"
 #include "codec/repairs.h"
 #include "codec/script.h"

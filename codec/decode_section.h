@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "codec/dual.h"
 #include "codec/mesh.h"
+#include "codec/primal.h"
 #include "codec/range_coder.h"
 #include "codec/repairs.h"
 #include "codec/result.h"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "codec/mesh.h"
-#include "codec/result.h"
 #include "codec/topology.h"
 
 namespace tutte {
@@ -19,17 +18,5 @@ struct DualTopology {
 
 /// The dual. O(n).
 DualTopology dualOf(const Topology& primal);
-
-/// What remains of a walk over a dual when it is turned back into the mesh.
-struct PrimalMesh {
-  Connectivity connectivity;
-  std::vector<Index> dual_corner;     ///< per corner: the dual's
-  std::vector<uint8_t> on_boundary;   ///< per umbrella: a dummy face touches it
-};
-
-/// Turns a walked dual back. `dummies` names the dual umbrellas that are dummy faces. Faces come in the order of the
-/// dual's umbrellas, each from the corner that the dual has first; umbrellas are numbered like the dual's faces.
-/// O(n). kMalformed: a face of degree below 3, an umbrella with two dummy faces or none but those.
-Result<PrimalMesh> primalOf(const Connectivity& dual, const std::vector<Index>& dummies, const Limits& limits);
 
 }  // namespace tutte
