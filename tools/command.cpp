@@ -45,9 +45,27 @@ Failure inFile(Failure failure, const std::filesystem::path& path) {
   return failure;
 }
 
+namespace {
+
+/// What to do about a failure that does not say so itself.
+const char* remedyFor(FailureKind kind) {
+  switch (kind) {
+    case FailureKind::kUsage: return "see tutte --help";
+    case FailureKind::kInvalid: return "get the file once more, or make it anew from its source";
+    case FailureKind::kUnsupported: return "convert the file with the program that made it";
+    case FailureKind::kVerification: return "compare with the bits that were used to encode";
+    case FailureKind::kIo: return "check the name, the rights and the space on the disk";
+  }
+  return "";
+}
+
+}  // namespace
+
 void printFailure(const Failure& failure) {
   const std::string where = failure.where.empty() ? "" : failure.where + ": ";
-  std::fprintf(stderr, "tutte: %s%s\n", where.c_str(), failure.what.c_str());
+  const bool complete = failure.what.find("; ") != std::string::npos;
+  std::fprintf(stderr, "tutte: %s%s%s%s\n", where.c_str(), failure.what.c_str(), complete ? "" : "; ",
+               complete ? "" : remedyFor(failure.kind));
 }
 
 void printWarning(const std::filesystem::path& path, const std::string& warning) {
