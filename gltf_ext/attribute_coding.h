@@ -71,6 +71,9 @@ int quantisationBits(const AttributeName& name, const PackOptions& options);
 /// - NORMAL of unit vectors (to 2^-bits): octahedral; otherwise quantised;
 /// - TANGENT of unit vectors with signs: octahedral with signs; otherwise without loss, as rounding would make it invalid;
 /// - other floats: quantised.
+///
+/// No component is off by more than half a step, range / (2^bits - 1) / 2, when quantised (and what rounding to float
+/// adds: 2^-24 of its size), or by more than 3 / octahedronCentre(bits) when octahedral. All else is exact.
 AttributeCoding chooseCoding(const Attribute& attribute, const PackOptions& options);
 
 /// The planes of an attribute, without values. None for kConstant.

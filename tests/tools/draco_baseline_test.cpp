@@ -6,6 +6,8 @@
 #include <cstring>
 
 #include "tests/shapes/shapes.h"
+#include "tests/tools/scratch.h"
+#include "tools/import.h"
 
 namespace tutte {
 namespace {
@@ -150,6 +152,33 @@ TEST(DracoBaseline, NothingToTriangulateIsRefused) {
   const auto outcome = dracoTriangles(degenerate, {}, {});
   ASSERT_FALSE(outcome.ok());
   EXPECT_NE(outcome.error().what.find("degenerate"), std::string::npos) << outcome.error().what;
+}
+
+/// Bytes of draco_encoder -qp 11 --skip TEX_COORD --skip NORMAL, with -cl 7, -cl 10, and -cl 10 -preserve_polygons
+/// (0: not compared).
+struct Known {
+  const char* file;
+  uint64_t cl7, cl10, polygons;
+};
+
+TEST(DracoBaseline, AgreesWithDracosOwnCommand) {
+  const std::filesystem::path folder = corpusFolder();
+  if (folder.empty()) GTEST_SKIP() << "no corpus: set TUTTE_CORPUS to its folder";
+  PackOptions options;
+  options.position_bits = 11;
+  for (const Known& known : {Known{"polygon/beast.obj", 42243, 37173, 60878}, Known{"triangle/spot.obj", 6551, 6139, 0},
+                             Known{"paper-triangle/bunny_34835.off", 48687, 42728, 0}}) {
+    SCOPED_TRACE(known.file);
+    auto imported = importScene(folder / known.file);
+    ASSERT_TRUE(imported.ok()) << imported.error().what;
+    ASSERT_EQ(imported->scene.meshes.size(), 1u);
+    PolygonMesh& mesh = imported->scene.meshes[0].mesh;
+    mesh.attributes.resize(1);
+    EXPECT_EQ(figuresOf(dracoTriangles(mesh, options, {7, 1})).total_bytes, known.cl7);
+    EXPECT_EQ(figuresOf(dracoTriangles(mesh, options, {10, 1})).total_bytes, known.cl10);
+    if (known.polygons == 0) continue;
+    EXPECT_EQ(figuresOf(dracoPolygons(mesh, options, {10, 1})).total_bytes, known.polygons);
+  }
 }
 
 }  // namespace
