@@ -38,6 +38,43 @@ class Chance {
   uint32_t state_;
 };
 
+/// Several chances of one decision become one, with weights that learn which of them to trust.
+template <int kInputs>
+class Mixer {
+ public:
+  Mixer() { weights_.fill(kInitial); }
+
+  template <class Port>
+  bool code(Port& port, const std::array<Chance*, kInputs>& chances, bool value) {
+    if constexpr (kInputs == 1) {
+      return chances[0]->code(port, value);
+    } else {
+      std::array<int32_t, kInputs> inputs;
+      int64_t sum = 0;
+      for (int i = 0; i < kInputs; ++i) {
+        inputs[i] = chances[i]->trusted();
+        sum += int64_t{inputs[i]} * weights_[i];
+      }
+      const auto mixed = static_cast<int32_t>(std::clamp<int64_t>(sum >> 16, -kStretchLimit, kStretchLimit));
+      const int32_t one = kSquash[mixed + 2048];
+      const bool bit = port.code(static_cast<uint32_t>(std::clamp(one, 24, 65512)), value);
+      const int32_t error = ((bit ? 65535 : 0) - one) >> 4;
+      for (int i = 0; i < kInputs; ++i) {
+        const int32_t moved = weights_[i] + ((inputs[i] * error * kLearning + 8192) >> 14);
+        weights_[i] = std::clamp(moved, -kLargest, kLargest);
+        chances[i]->update(bit);
+      }
+      return bit;
+    }
+  }
+
+ private:
+  static constexpr int32_t kInitial = 65536 * 13 / (10 * kInputs);
+  static constexpr int32_t kLearning = 10, kLargest = 1 << 20;
+
+  std::array<int32_t, kInputs> weights_;
+};
+
 /// What is known about a residual before it is coded: one line of statistics per input of the mixer.
 inline constexpr int kMostInputs = 5;
 struct ResidualContext {
@@ -57,7 +94,7 @@ class ResidualCoder {
   /// `lines`: how many contexts each input has.
   explicit ResidualCoder(const std::array<uint32_t, kInputs>& lines) {
     for (int i = 0; i < kInputs; ++i) tables_[i].assign(size_t{lines[i]} * kBins, Chance());
-    weights_.fill(kInitialWeight);
+    mixers_.fill(Mixer<kInputs>());
     signs_.fill(Chance());
     digits_.fill(Chance());
     seconds_.fill(Chance());
@@ -78,49 +115,28 @@ class ResidualCoder {
   static constexpr int kBins = 19;  // "longer than expected?", ten steps up, eight steps down
   static constexpr int kUp = 1, kDown = 11;
   static constexpr int kLongestResidual = 30;
-  static constexpr int32_t kInitialWeight = kInputs == 1 ? 65536 : 65536 * 13 / (10 * kInputs);
 
   template <class Port>
   int codeLength(Port& port, const ResidualContext& context, int length) {
     std::array<Chance*, kInputs> lines;
     for (int i = 0; i < kInputs; ++i) lines[i] = tables_[i].data() + size_t{context.line[i]} * kBins;
-    int32_t* weights = &weights_[static_cast<size_t>(context.component) * kBins * kInputs];
+    Mixer<kInputs>* const mixers = &mixers_[static_cast<size_t>(context.component) * kBins];
+    const auto decide = [&](int bin, bool value) {
+      std::array<Chance*, kInputs> chances;
+      for (int i = 0; i < kInputs; ++i) chances[i] = lines[i] + bin;
+      return mixers[bin].code(port, chances, value);
+    };
     int at = context.expected;
-    if (decide(port, lines, weights, 0, length > at)) {
+    if (decide(0, length > at)) {
       for (int bin = kUp; ++at < kLongestResidual; bin += bin < kDown - 1) {
-        if (!decide(port, lines, weights, bin, length > at)) break;
+        if (!decide(bin, length > at)) break;
       }
     } else {
       for (int bin = kDown; at > 0; --at, bin += bin < kBins - 1) {
-        if (!decide(port, lines, weights, bin, length < at)) break;
+        if (!decide(bin, length < at)) break;
       }
     }
     return at;
-  }
-
-  template <class Port>
-  bool decide(Port& port, const std::array<Chance*, kInputs>& lines, int32_t* weights, int bin, bool value) {
-    if constexpr (kInputs == 1) {
-      return lines[0][bin].code(port, value);
-    } else {
-      weights += bin * kInputs;
-      std::array<int32_t, kInputs> inputs;
-      int64_t sum = 0;
-      for (int i = 0; i < kInputs; ++i) {
-        inputs[i] = lines[i][bin].trusted();
-        sum += int64_t{inputs[i]} * weights[i];
-      }
-      const auto mixed = static_cast<int32_t>(std::clamp<int64_t>(sum >> 16, -kStretchLimit, kStretchLimit));
-      const int32_t one = kSquash[mixed + 2048];
-      const bool bit = port.code(std::clamp(one, 24, 65512), value);
-      const int32_t error = ((bit ? 65535 : 0) - one) >> 4;
-      for (int i = 0; i < kInputs; ++i) {
-        const int32_t moved = weights[i] + ((inputs[i] * error * kLearning + 8192) >> 14);
-        weights[i] = std::clamp(moved, -kLargestWeight, kLargestWeight);
-        lines[i][bin].update(bit);
-      }
-      return bit;
-    }
   }
 
   // The two digits below the leading one are adaptive, the others plain.
@@ -143,10 +159,8 @@ class ResidualCoder {
     return value << rest | port.bits(rest, static_cast<uint32_t>(magnitude & mask));
   }
 
-  static constexpr int32_t kLearning = 10, kLargestWeight = 1 << 20;
-
   std::array<std::vector<Chance>, kInputs> tables_;
-  std::array<int32_t, 3 * kBins * kInputs> weights_;
+  std::array<Mixer<kInputs>, 3 * kBins> mixers_;
   std::array<Chance, kSigns * 3 * 3> signs_;
   std::array<Chance, 3 * 8> digits_;
   std::array<Chance, 3 * 8 * 2> seconds_;

@@ -1,7 +1,13 @@
 #include "codec/values.h"
 
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "codec/value_labels.h"
 #include "codec/value_port.h"
 #include "codec/value_predictor.h"
+#include "codec/value_ranks.h"
 
 namespace tutte {
 namespace {
@@ -20,6 +26,13 @@ struct Run {
   const ValueSites& sites;
   const ValueFormat& format;
   std::span<int32_t> values;
+
+  Error labels(uint32_t count) {
+    values::LabelCoder<Port> coder(port, sites.graph, count);
+    return everySite([&](Index site) {
+      values[site] = static_cast<int32_t>(coder.code(site, static_cast<uint32_t>(values[site])));
+    });
+  }
 
   Error profile() {
     switch (format.profile) {
@@ -52,16 +65,108 @@ struct Run {
   Error code() {
     SitePredictor<Port, C, kInputs, Guide> predictor(port, sites.graph, sites.places, format.max,
                                                      format.kind == ValueKind::kPoints);
+    const Error error = everySite([&](Index site) {
+      predictor.code(site, std::span<int32_t, C>(&values[size_t{site} * C], size_t{C}));
+    });
+    if (error != Error::kNone) return error;
+    return predictor.damaged() ? Error::kMalformed : Error::kNone;
+  }
+
+  template <class Code>
+  Error everySite(Code code) {
     Index until_check = 1;
     for (const Index site : sites.order) {
-      predictor.code(site, std::span<int32_t, C>(&values[size_t{site} * C], size_t{C}));
+      code(site);
       if (Port::kWriting || --until_check != 0) continue;
       if (port.overrun()) return Error::kTruncated;
       until_check = 1024;
     }
-    return predictor.damaged() ? Error::kMalformed : Error::kNone;
+    return Error::kNone;
   }
 };
+
+/// Longer lists cost more than they save.
+constexpr size_t kMostRanks = 4096;
+constexpr uint32_t kMostNames = 4096;
+
+/// The different tuples of components, sorted, and the label of each site; empty when they are too many.
+std::vector<int32_t> namesOf(std::span<const int32_t> values, int components, std::vector<int32_t>& labels) {
+  const size_t most = std::min<size_t>(kMostNames, values.size() / components / 2 + 1);
+  std::map<std::vector<int32_t>, int32_t> numbers;
+  for (size_t i = 0; i < values.size(); i += components) {
+    numbers.try_emplace({values.begin() + i, values.begin() + i + components});
+    if (numbers.size() > most) return {};
+  }
+  std::vector<int32_t> names;
+  for (auto& [name, number] : numbers) {
+    number = static_cast<int32_t>(names.size() / components);
+    names.insert(names.end(), name.begin(), name.end());
+  }
+  for (size_t i = 0; i < values.size(); i += components) {
+    labels.push_back(numbers[{values.begin() + i, values.begin() + i + components}]);
+  }
+  return names;
+}
+
+bool encodeLabels(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, ByteWriter& out) {
+  std::vector<int32_t> labels;
+  const std::vector<int32_t> names = namesOf(values, format.components, labels);
+  if (names.empty()) return false;
+  const auto count = static_cast<uint32_t>(names.size()) / format.components;
+  out.varint(count);
+  for (size_t i = 0; i < names.size(); ++i) {
+    // The first components ascend; the others do not.
+    const bool first = i % format.components == 0;
+    const int32_t base = first && i > 0 ? names[i - format.components] : 0;
+    out.varint(static_cast<uint32_t>(names[i] - base));
+  }
+  ValueWriter port;
+  (void)Run<ValueWriter>{port, sites, format, labels}.labels(count);
+  std::move(port).finish(out);
+  return true;
+}
+
+std::vector<int32_t> readNames(ByteReader& in, const ValueFormat& format, uint32_t count) {
+  std::vector<int32_t> names;
+  for (size_t i = 0; i < size_t{count} * format.components; ++i) {
+    const bool first = i % format.components == 0;
+    const int64_t name = int64_t{first && i > 0 ? names[i - format.components] : 0} + in.varint();
+    if (in.error() != Error::kNone || name > format.max) return {};
+    names.push_back(static_cast<int32_t>(name));
+  }
+  return names;
+}
+
+/// The ports' part of a stream, which is everything that is left.
+template <class Decode>
+Error readPort(ByteReader& in, Decode decode) {
+  const uint32_t size = in.varint();
+  const std::span<const uint8_t> decisions = in.take(size);
+  if (in.error() != Error::kNone) return in.error();
+  ValueReader port(decisions, in.take(in.remaining()));
+  const Error error = decode(port);
+  if (error != Error::kNone) return error;
+  if (port.overrun()) return Error::kTruncated;
+  return port.trailing() ? Error::kTrailingBytes : Error::kNone;
+}
+
+Result<std::vector<int32_t>> decodeLabels(const ValueSites& sites, const ValueFormat& format, ByteReader& in) {
+  const uint32_t count = in.varint();
+  if (count == 0 || count > kMostNames) return Error::kMalformed;
+  const std::vector<int32_t> names = readNames(in, format, count);
+  if (names.empty()) return Error::kMalformed;
+  std::vector<int32_t> labels(sites.graph.siteCount(), 0);
+  const Error error = readPort(in, [&](ValueReader& port) {
+    return Run<ValueReader>{port, sites, format, labels}.labels(count);
+  });
+  if (error != Error::kNone) return error;
+  std::vector<int32_t> values(labels.size() * format.components);
+  for (size_t site = 0; site < labels.size(); ++site) {
+    std::copy_n(&names[static_cast<size_t>(labels[site]) * format.components], format.components,
+                &values[site * format.components]);
+  }
+  return values;
+}
 
 }  // namespace
 
@@ -69,8 +174,10 @@ bool supports(const ValueSites& sites, const ValueFormat& format) {
   if (format.components < 1 || format.components > 4 || format.max < 0 || format.max > kMaxValue) return false;
   const bool places = sites.places.size() == size_t{sites.graph.siteCount()} * 3;
   if (!places && !sites.places.empty()) return false;
+  if (format.ranked && format.kind != ValueKind::kPlain && format.kind != ValueKind::kPoints) return false;
   switch (format.kind) {
-    case ValueKind::kPlain: return true;
+    case ValueKind::kPlain:
+    case ValueKind::kLabel: return true;
     case ValueKind::kPoints: return format.components == 3 && format.max <= kMaxPoint;
     case ValueKind::kTexcoord: return format.components == 2 && format.max <= kMaxTexcoord && places;
     case ValueKind::kDirection: return format.components == 2 && format.max % 2 == 0 && format.max > 0;
@@ -78,26 +185,43 @@ bool supports(const ValueSites& sites, const ValueFormat& format) {
   return false;
 }
 
-void encodeValues(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, ByteWriter& out) {
-  ValueWriter port;
+bool encodeValues(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, ByteWriter& out) {
+  if (!supports(sites, format) || values.empty()) return false;
+  if (format.kind == ValueKind::kLabel) return encodeLabels(sites, format, values, out);
   std::vector<int32_t> scratch(values.begin(), values.end());
-  (void)Run<ValueWriter>{port, sites, format, scratch}.profile();
+  ValueFormat coded = format;
+  if (format.ranked) {
+    const size_t most = std::min({kMostRanks, static_cast<size_t>(format.max) / 2, size_t{sites.graph.siteCount()} / 2});
+    const std::optional<ValueRanks> ranks = findRanks(values, format.components, most);
+    if (!ranks) return false;
+    writeRanks(*ranks, out);
+    scratch = toRanks(*ranks, values);
+    coded.max = ranks->largest();
+  }
+  ValueWriter port;
+  (void)Run<ValueWriter>{port, sites, coded, scratch}.profile();
   std::move(port).finish(out);
+  return true;
 }
 
 Result<std::vector<int32_t>> decodeValues(const ValueSites& sites, const ValueFormat& format,
                                           std::span<const uint8_t> bytes) {
   if (!supports(sites, format)) return Error::kMalformed;
   ByteReader in(bytes);
-  const uint32_t size = in.varint();
-  const std::span<const uint8_t> decisions = in.take(size);
-  if (in.error() != Error::kNone) return in.error();
-  ValueReader port(decisions, bytes.subspan(in.position()));
+  if (format.kind == ValueKind::kLabel) return decodeLabels(sites, format, in);
+  ValueFormat coded = format;
+  std::optional<ValueRanks> ranks;
+  if (format.ranked) {
+    ranks = readRanks(in, format.components, format.max);
+    if (!ranks) return Error::kMalformed;
+    coded.max = ranks->largest();
+  }
   std::vector<int32_t> values(size_t{sites.graph.siteCount()} * format.components, 0);
-  const Error error = Run<ValueReader>{port, sites, format, values}.profile();
+  const Error error = readPort(in, [&](ValueReader& port) {
+    return Run<ValueReader>{port, sites, coded, values}.profile();
+  });
   if (error != Error::kNone) return error;
-  if (port.overrun()) return Error::kTruncated;
-  if (port.trailing()) return Error::kTrailingBytes;
+  if (ranks && !fromRanks(*ranks, values)) return Error::kMalformed;
   return values;
 }
 

@@ -24,6 +24,7 @@ enum class ValueKind : uint8_t {
   kPoints = 1,     ///< three components are points of a surface: corrected towards its tangent plane. max < 2^20
   kTexcoord = 2,   ///< two components are places in a texture that lies on the surface. max < 2^18
   kDirection = 3,  ///< two components are points of an unfolded octahedron. max is even, twice its centre
+  kLabel = 4,      ///< all components together are one of at most 4096 names
 };
 
 /// What the values are, besides the numbers.
@@ -32,6 +33,7 @@ struct ValueFormat {
   int32_t max = 0;                 ///< values are 0 to max, below 2^27
   ValueProfile profile = ValueProfile::kDefault;
   ValueKind kind = ValueKind::kPlain;
+  bool ranked = false;             ///< (kPlain, kPoints) each component is one of a list: their ranks are coded
 };
 
 /// A mesh's sites, and in which order they are coded (siteOrder()).
@@ -45,8 +47,9 @@ struct ValueSites {
 /// True when values of this format can be coded at these sites.
 bool supports(const ValueSites& sites, const ValueFormat& format);
 
-/// Appends the values, `components` per site in the order of site numbers. The format must be supported.
-void encodeValues(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, ByteWriter& out);
+/// Appends the values, `components` per site in the order of site numbers. False, and nothing is appended, when the
+/// format is not supported, or has lists that would be too long to be worth it.
+bool encodeValues(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, ByteWriter& out);
 
 /// The values of any bytes, each within [0, max], or an error (kTruncated, kMalformed). All of `bytes` must be used.
 Result<std::vector<int32_t>> decodeValues(const ValueSites& sites, const ValueFormat& format,

@@ -76,18 +76,21 @@ bool consistent(const AttributeTopology& topology) {
   return std::ranges::all_of(topology.seams, [&](auto seams) { return seams.empty() || seams.size() == corners; });
 }
 
-// The first byte of a plane's stream: the profile in bits 0 and 1, the kind of its values from bit 2.
-constexpr uint8_t kProfileMask = 3;
+// The first byte of a plane's stream: the profile in bits 0 and 1, the kind of its values in bits 2 to 4, then kRanked.
+constexpr uint8_t kProfileMask = 3, kKindMask = 7, kRanked = 32;
 constexpr int kKindShift = 2;
 
 uint8_t headOf(const ValueFormat& format) {
-  return static_cast<uint8_t>(static_cast<int>(format.profile) | static_cast<int>(format.kind) << kKindShift);
+  return static_cast<uint8_t>(static_cast<int>(format.profile) | static_cast<int>(format.kind) << kKindShift |
+                              (format.ranked ? kRanked : 0));
 }
 
 std::optional<ValueFormat> formatOf(const Plane& plane, uint8_t head) {
-  const int profile = head & kProfileMask, kind = head >> kKindShift;
-  if (profile > static_cast<int>(ValueProfile::kSmall) || kind > static_cast<int>(ValueKind::kDirection)) return {};
-  return ValueFormat{plane.components, plane.max, static_cast<ValueProfile>(profile), static_cast<ValueKind>(kind)};
+  const int profile = head & kProfileMask, kind = head >> kKindShift & kKindMask;
+  if (profile > static_cast<int>(ValueProfile::kSmall) || kind > static_cast<int>(ValueKind::kLabel)) return {};
+  if (head >= 2 * kRanked) return {};
+  return ValueFormat{plane.components, plane.max, static_cast<ValueProfile>(profile), static_cast<ValueKind>(kind),
+                     (head & kRanked) != 0};
 }
 
 /// The values per site; empty when wedges of one site differ.
@@ -121,14 +124,21 @@ std::vector<int32_t> placesOf(std::span<const Plane> planes, size_t current, con
   return places;
 }
 
+/// One way to code a plane.
+struct Trial {
+  ValueKind kind;
+  bool ranked = false;
+};
+
 /// What an encoder tries; the smallest is kept.
-std::vector<ValueKind> kindsFor(PlaneKind kind) {
+std::vector<Trial> trialsFor(PlaneKind kind) {
   switch (kind) {
-    case PlaneKind::kPosition: return {ValueKind::kPoints, ValueKind::kPlain};
-    case PlaneKind::kTexcoord: return {ValueKind::kTexcoord, ValueKind::kPlain};
+    case PlaneKind::kPosition:
+      return {{ValueKind::kPoints}, {ValueKind::kPlain}, {ValueKind::kPoints, true}, {ValueKind::kPlain, true}};
+    case PlaneKind::kTexcoord: return {{ValueKind::kTexcoord}, {ValueKind::kPlain}, {ValueKind::kLabel}};
     case PlaneKind::kNormal:
-    case PlaneKind::kDirection: return {ValueKind::kDirection, ValueKind::kPlain};
-    default: return {ValueKind::kPlain};
+    case PlaneKind::kDirection: return {{ValueKind::kDirection}, {ValueKind::kPlain}, {ValueKind::kLabel}};
+    default: return {{ValueKind::kPlain}, {ValueKind::kPlain, true}, {ValueKind::kLabel}};
   }
 }
 
@@ -136,11 +146,10 @@ void writePlane(const ValueSites& sites, const Plane& plane, std::span<const int
                 ByteWriter& out) {
   uint8_t head = 0;
   std::vector<uint8_t> smallest;
-  for (const ValueKind kind : kindsFor(plane.kind)) {
-    const ValueFormat format{plane.components, plane.max, profile, kind};
-    if (!supports(sites, format)) continue;
+  for (const Trial& trial : trialsFor(plane.kind)) {
+    const ValueFormat format{plane.components, plane.max, profile, trial.kind, trial.ranked};
     ByteWriter bytes;
-    encodeValues(sites, format, values, bytes);
+    if (!encodeValues(sites, format, values, bytes)) continue;
     if (!smallest.empty() && smallest.size() <= bytes.bytes().size()) continue;
     smallest = std::move(bytes).take();
     head = headOf(format);
@@ -167,6 +176,7 @@ bool readPlane(const ValueSites& sites, const WedgeSites& wedges, ByteReader& in
 Outcome<std::vector<uint8_t>> encodeValuePlanes(const AttributeTopology& topology, std::span<const Plane> planes,
                                                 ValueProfile profile) {
   if (!consistent(topology)) return Failure{FailureKind::kInvalid, "", "the attributes' topology contradicts itself"};
+  if (topology.wedge_count == 0) return std::vector<uint8_t>();
   Layouts layouts(topology);
   ByteWriter out;
   for (size_t i = 0; i < planes.size(); ++i) {
@@ -184,6 +194,7 @@ Outcome<std::vector<uint8_t>> encodeValuePlanes(const AttributeTopology& topolog
 
 bool decodeValuePlanes(const AttributeTopology& topology, std::span<const uint8_t> bytes, std::span<Plane> planes) {
   if (!consistent(topology)) return false;
+  if (topology.wedge_count == 0) return bytes.empty();
   Layouts layouts(topology);
   ByteReader in(bytes);
   for (size_t i = 0; i < planes.size(); ++i) {

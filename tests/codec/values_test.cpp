@@ -47,7 +47,7 @@ std::vector<int32_t> someValues(const Sites& sites, int components, int32_t max,
 
 std::vector<uint8_t> bytesOf(const Sites& sites, const ValueFormat& format, std::span<const int32_t> values) {
   ByteWriter out;
-  encodeValues({sites.graph, sites.order, {}}, format, values, out);
+  EXPECT_TRUE(encodeValues({sites.graph, sites.order, {}}, format, values, out));
   return std::move(out).take();
 }
 
@@ -72,6 +72,7 @@ TEST(Values, RoundTrips) {
         for (const int32_t max : {0, 1, 255, 16383, (1 << 27) - 1}) {
           const ValueFormat format{components, max, profile, components == 3 && max < 1 << 20 ? ValueKind::kPoints : ValueKind::kPlain};
           const std::vector<int32_t> values = someValues(sites, components, max, static_cast<uint64_t>(max));
+          if (values.empty()) continue;
           const std::vector<uint8_t> bytes = bytesOf(sites, format, values);
           const Result<std::vector<int32_t>> decoded = decodeValues({sites.graph, sites.order, {}}, format, bytes);
           ASSERT_TRUE(decoded) << name << ": " << describe(decoded.error());
@@ -182,7 +183,7 @@ TEST(Values, GuidedRoundTripsAndDamage) {
         const Guided given = guided(sites, kind, profile);
         const ValueSites where{sites.graph, sites.order, given.places};
         ByteWriter out;
-        encodeValues(where, given.format, given.values, out);
+        ASSERT_TRUE(encodeValues(where, given.format, given.values, out));
         std::vector<uint8_t> bytes = std::move(out).take();
         const auto decoded = decodeValues(where, given.format, bytes);
         ASSERT_TRUE(decoded) << describe(decoded.error());
@@ -192,6 +193,38 @@ TEST(Values, GuidedRoundTripsAndDamage) {
           const auto damaged = decodeValues(where, given.format, bytes);
           if (damaged) { ASSERT_EQ(damaged->size(), given.values.size()); }
           bytes[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
+        }
+      }
+    }
+  }
+}
+
+/// Few different values, far apart: lists of them, and names.
+TEST(Values, ListsRoundTripsAndDamage) {
+  for (const auto& [name, shape] : shapes::allShapes()) {
+    const Sites sites = vertexSites(shape.mesh);
+    shapes::Random random(4);
+    for (const int32_t max : {1000, (1 << 27) - 1}) {
+      for (int components = 1; components <= 4; ++components) {
+        std::vector<int32_t> values;
+        for (size_t i = 0; i < size_t{sites.graph.siteCount()} * components; ++i) {
+          values.push_back(static_cast<int32_t>(random.below(3)) * (max / 2));
+        }
+        for (const ValueFormat& format : {ValueFormat{components, max, ValueProfile::kDefault, ValueKind::kLabel},
+                                          ValueFormat{components, max, ValueProfile::kDefault, ValueKind::kPlain, true}}) {
+          const ValueSites where{sites.graph, sites.order, {}};
+          ByteWriter out;
+          if (!encodeValues(where, format, values, out)) continue;
+          std::vector<uint8_t> bytes = std::move(out).take();
+          const auto decoded = decodeValues(where, format, bytes);
+          ASSERT_TRUE(decoded) << name << describe(decoded.error());
+          ASSERT_EQ(*decoded, values) << name;
+          for (size_t bit = 0; bit < 8 * bytes.size(); bit += 37) {
+            bytes[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
+            ASSERT_TRUE(isHarmless(sites, format, bytes)) << name;
+            ASSERT_TRUE(isHarmless(sites, format, std::span(bytes).first(bit / 8))) << name;
+            bytes[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
+          }
         }
       }
     }
