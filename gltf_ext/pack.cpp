@@ -56,7 +56,7 @@ class Packer {
   Outcome<Done> connectivity() {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
-    Result<Encoded> encoded = encode(mesh_.polygons);
+    Result<Encoded> encoded = encode(mesh_.polygons, options_.connectivity);
     packed_.connectivity_encode_seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (!encoded) return failureOf(encoded.error(), "connectivity");
     encoded_ = std::move(*encoded);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "codec/encode.h"
 #include "codec/values.h"
 #include "gltf_ext/failure.h"
 #include "gltf_ext/polygon_mesh.h"
@@ -28,6 +29,7 @@ struct PackOptions {
   int generic_bits = 12;  ///< custom float attributes and morph-target deltas of anything but positions
   AttributeCoder attribute_coder = AttributeCoder::kAuto;
   ValueProfile value_profile = ValueProfile::kDefault;  ///< of kTutte
+  EncodeOptions connectivity;                           ///< profile and effort of the connectivity coder
 };
 
 /// A payload and how it relates to the mesh that it was made from.

@@ -168,6 +168,7 @@ void addBench(CLI::App& app, Action& action) {
   command.add_option("files", bench->files, "models of any format")->required();
   command.add_flag("--json", bench->as_json, "print one JSON object per line and file");
   addQuantization(command, bench->options);
+  addConnectivity(command, bench->options.connectivity);
   addAttributes(command, bench->attributes);
   command.add_option("--seconds", bench->seconds, "how long each step is repeated for its best time")
       ->check(CLI::Range(0.0, 60.0))

@@ -69,6 +69,7 @@ void addEncode(CLI::App& app, Action& action) {
       ->required();
   command.add_option("output", encode->output, ".glb or .gltf")->required();
   addQuantization(command, encode->options.pack);
+  addConnectivity(command, encode->options.pack.connectivity);
   addAttributes(command, encode->attributes);
   static const std::map<std::string, PolygonOutput> kPolygons = {{"auto", PolygonOutput::kAuto},
                                                                  {"fb", PolygonOutput::kFb},

@@ -34,18 +34,30 @@ size_t edgesOf(const Connectivity& connectivity) {
 
 Json sectionJson(const char* name, size_t bytes) { return {{"name", name}, {"bytes", bytes}}; }
 
-/// The three streams inside the connectivity section.
+/// The streams inside the connectivity section.
 Json streamsOf(std::span<const uint8_t> section) {
   SectionHeader header;
   const Result<SectionStreams> streams = readSection(section, header);
   if (!streams) return Json::array();
   Json list = Json::array();
-  const size_t parts = streams->valences.size() + streams->degrees.size() + streams->repairs.size();
+  const size_t parts = streams->valences.size() + streams->degrees.size();
   list.push_back(sectionJson("header", section.size() - parts));
   list.push_back(sectionJson("valences", streams->valences.size()));
   list.push_back(sectionJson("degrees", streams->degrees.size()));
-  list.push_back(sectionJson("repairs", streams->repairs.size()));
   return list;
+}
+
+/// What the encoder chose, as the head of the connectivity section says it.
+Json choicesOf(std::span<const uint8_t> section) {
+  static constexpr const char* kProfiles[] = {"paper", "fast", "default", "small"};
+  SectionHeader header;
+  if (!readSection(section, header)) return Json::object();
+  return {{"profile", kProfiles[static_cast<int>(header.profile)]},
+          {"dual", header.dual},
+          {"newestFirst", header.tie == TieRule::kNewestFirst},
+          {"match", header.match},
+          {"copies", header.copies},
+          {"repairs", header.repairs}};
 }
 
 Outcome<Json> describe(const PayloadBytes& payload) {
@@ -62,6 +74,7 @@ Outcome<Json> describe(const PayloadBytes& payload) {
               {"triangles", counts.triangles},
               {"groups", counts.groups},
               {"edges", edgesOf(*connectivity)}};
+  out["connectivity"] = choicesOf(payload.view[Section::kConnectivity]);
   out["sections"] = {sectionJson("header", payload.view.header_bytes)};
   for (int i = 0; i < kSectionCount; ++i) {
     const auto section = static_cast<Section>(i);
@@ -96,6 +109,11 @@ void print(const Json& payload, size_t number) {
   for (const char* count : {"vertices", "wedges", "faces", "corners", "edges", "triangles", "groups"}) {
     std::printf("  %-22s %12s\n", count, withCommas(payload[count]).c_str());
   }
+  std::string choices = payload["connectivity"]["profile"];
+  for (const char* choice : {"dual", "newestFirst", "match", "copies", "repairs"}) {
+    if (payload["connectivity"][choice] == true) choices += std::string(" ") + choice;
+  }
+  std::printf("  %-22s %s\n", "connectivity coded as", choices.c_str());
   std::printf("  %-22s %12s %10s %10s %10s\n", "section", "bytes", "b/vertex", "b/face", "b/edge");
   for (const Json& section : payload["sections"]) {
     printRow(payload, section["name"], section);

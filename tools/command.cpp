@@ -27,8 +27,24 @@ void addQuantization(CLI::App& command, PackOptions& options) {
       {"auto", AttributeCoder::kAuto}, {"draco", AttributeCoder::kDraco}, {"tutte", AttributeCoder::kTutte}};
   command.add_option("--attribute-coder", options.attribute_coder, "who codes the attributes; auto keeps the smaller")
       ->transform(CLI::CheckedTransformer(coders))
-      ->default_str("auto")
+      ->option_text("auto|draco|tutte")
       ->group("Quantisation");
+}
+
+void addConnectivity(CLI::App& command, EncodeOptions& options) {
+  const std::map<std::string, Profile> profiles{
+      {"paper", Profile::kPaper}, {"fast", Profile::kFast}, {"default", Profile::kDefault}, {"small", Profile::kSmall}};
+  command
+      .add_option_function<Profile>(
+          "--profile", [&options](const Profile& profile) { options.profile = profile; },
+          "statistics of the connectivity; without it, chosen by the size of the mesh")
+      ->transform(CLI::CheckedTransformer(profiles))
+      ->option_text("fast|default|small|paper")
+      ->group("Connectivity");
+  command.add_option("--effort", options.effort, "how long to search for fewer bytes, 0 to 3")
+      ->check(CLI::Range(0, 3))
+      ->capture_default_str()
+      ->group("Connectivity");
 }
 
 void addAttributes(CLI::App& command, std::vector<std::string>& names) {

@@ -32,6 +32,9 @@ void addTrace(CLI::App& app, Action& action);
 /// --qp --qn --qt --qc --qg.
 void addQuantization(CLI::App& command, PackOptions& options);
 
+/// --profile and --effort.
+void addConnectivity(CLI::App& command, EncodeOptions& options);
+
 /// --attributes A,B,C.
 void addAttributes(CLI::App& command, std::vector<std::string>& names);
 
@@ -50,7 +53,7 @@ Outcome<T> inFile(Outcome<T> outcome, const std::filesystem::path& path) {
   return inFile(outcome.error(), path);
 }
 
-/// "tutte: <place>: <what>", on standard error.
+/// "tutte: <place>: <what>; <remedy>", on standard error.
 void printFailure(const Failure& failure);
 
 /// "tutte: <file>: warning: <what>", on standard error.
