@@ -31,15 +31,22 @@ std::string mimeTypeOf(const Bytes& bytes) {
   return "";
 }
 
-/// Images that were loaded become buffer views. Ones of an unknown kind stay URIs, because glTF wants a type.
+/// The bytes behind an image's URI, if it was loaded or holds them itself; otherwise nothing.
+Bytes imageBytes(const Asset& asset, const std::string& uri) {
+  const auto file = asset.files.find(uri);
+  if (file != asset.files.end()) return file->second;
+  Outcome<Bytes> decoded = isDataUri(uri) ? decodeDataUri(uri, "/images") : Outcome<Bytes>(Bytes());
+  return decoded ? *std::move(decoded) : Bytes();
+}
+
+/// Images that are at hand become buffer views. Ones of an unknown kind stay URIs, because glTF wants a type.
 void embedImages(Asset& asset) {
   for (size_t i = 0; i < countOf(asset.json, "images"); ++i) {
     Json& image = asset.json["images"][i];
-    const auto file = asset.files.find(stringMember(image, "uri"));
-    if (file == asset.files.end() || file->second.empty()) continue;
-    const std::string type = mimeTypeOf(file->second);
+    const Bytes bytes = imageBytes(asset, stringMember(image, "uri"));
+    const std::string type = mimeTypeOf(bytes);
     if (type.empty()) continue;
-    image["bufferView"] = appendView(asset, file->second);
+    image["bufferView"] = appendView(asset, bytes);
     image["mimeType"] = type;
     image.erase("uri");
   }

@@ -112,6 +112,16 @@ AttributeCoding quantisedCoding(const Attribute& attribute, int bits) {
   return finiteGrid(coding) ? coding : exactCoding(attribute);
 }
 
+/// Colors between 0 and 1 must stay there, and so the grid must not go beyond.
+AttributeCoding colorCoding(const Attribute& attribute, int bits) {
+  AttributeCoding coding = quantisedCoding(attribute, bits);
+  const bool proper = everyFloat(attribute, [](float value, size_t) { return value >= 0 && value <= 1; });
+  if (coding.kind != CodingKind::kQuantised || !proper) return coding;
+  coding.origin.fill(0);
+  coding.range = 1;
+  return coding;
+}
+
 /// True when the first three components of every value are a unit vector, as far as `bits` can tell.
 bool unitVectors(const Attribute& attribute, int bits) {
   for (size_t at = 0; at < attribute.data.size(); at += attribute.stride()) {
@@ -151,7 +161,9 @@ AttributeCoding lossyCoding(const Attribute& attribute, const AttributeName& nam
   if (!name.is_target && name.semantic == Semantic::kNormal) return normalCoding(attribute, bits);
   if (!name.is_target && name.semantic == Semantic::kTangent) return tangentCoding(attribute, bits);
   const auto fractions = fractionCoding(attribute);
-  return fractions && fractions->bits <= bits ? *fractions : quantisedCoding(attribute, bits);
+  if (fractions && fractions->bits <= bits) return *fractions;
+  return !name.is_target && name.semantic == Semantic::kColor ? colorCoding(attribute, bits)
+                                                              : quantisedCoding(attribute, bits);
 }
 
 void writeFloat(float value, ByteWriter& out) { out.u32(std::bit_cast<uint32_t>(value)); }
