@@ -61,7 +61,7 @@ class Search {
   Candidate candidateFor(bool dual) {
     Topology& topology = topologies_.walked(dual);
     Candidate candidate;
-    candidate.components = planComponents(topology, dual ? Repeats::kCopies : Repeats::kMirrored);
+    candidate.components = planComponents(topology, repeatsFor(dual));
     SectionHeader& header = candidate.header;
     header.dual = dual;
     header.closed = topologies_.primal().faces.faceCount() == topologies_.primal().real_faces;
@@ -72,6 +72,12 @@ class Search {
     header.table_bits = tableBitsFor(topology);
     header.match = profile_ >= Profile::kDefault && header.uniform_degree == 0;
     return candidate;
+  }
+
+  // The paper's coder knows no copies; a dual's mirror images were turned round with the mesh.
+  Repeats repeatsFor(bool dual) const {
+    if (profile_ == Profile::kPaper) return Repeats::kNone;
+    return dual ? Repeats::kCopies : Repeats::kMirrored;
   }
 
   Error tryFirst(bool dual) {
