@@ -52,6 +52,22 @@ inline Vector3 unit(Vector3 v) {
   return v;
 }
 
+/// The angle between two vectors below 2^21, 0 to 2^14 for 0 to 180 degrees, to half a percent.
+inline int64_t angle(const Vector3& a, const Vector3& b) {
+  const Vector3 product = shortened(cross(a, b), 30);
+  const int shift = std::max(0, static_cast<int>(std::bit_width(static_cast<uint64_t>(largestMagnitude(cross(a, b))))) - 30);
+  const int64_t sine = squareRoot(static_cast<uint64_t>(dot(product, product)));
+  const int64_t cosine = dot(a, b) >> shift;
+  const int64_t flat = cosine < 0 ? -cosine : cosine;
+  if (sine == 0 && flat == 0) return 0;
+  const bool steep = sine > flat;
+  const int64_t t = steep ? (flat << 12) / sine : (sine << 12) / flat;  // tangent, in 1/4096
+  // atan(t) is near t (pi/4 + 0.273 (1 - t)); pi/4 is 4096 here, 0.273 is 1424.
+  const int64_t eighth = t * (4096 + (1424 * (4096 - t) >> 12)) >> 12;
+  const int64_t quarter = steep ? 8192 - eighth : eighth;
+  return cosine < 0 ? 16384 - quarter : quarter;
+}
+
 /// A point of the unfolded octahedron, both coordinates in [0, 2 * centre], as a unit vector.
 inline Vector3 fromOctahedron(int64_t s, int64_t t, int64_t centre) {
   const auto magnitude = [](int64_t x) { return x < 0 ? -x : x; };

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "codec/value_directions.h"
 #include "codec/value_labels.h"
 #include "codec/value_port.h"
 #include "codec/value_predictor.h"

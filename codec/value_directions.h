@@ -1,0 +1,165 @@
+#pragma once
+// Predictions of directions, such as normals, on the unfolded octahedron.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/value_geometry.h"
+#include "codec/value_guides.h"
+#include "codec/value_stencil.h"
+
+namespace tutte::values {
+
+/// The normals that the surface itself has at its sites, in the ways in which programs average those of the faces.
+enum Weighting { kEven, kByAngle, kByArea, kWeightings };
+using SurfaceNormals = std::array<Vector3, kWeightings>;  ///< each of length 2^kUnitBits, or 0
+
+/// Sums over the faces around each site. `places` are those of ValueSites. O(corners).
+inline std::vector<SurfaceNormals> surfaceNormals(const ValueGraph& graph, Places places) {
+  constexpr int64_t kMostArea = int64_t{1} << 61;
+  std::vector<SurfaceNormals> sums(graph.siteCount(), SurfaceNormals{});
+  for (Index begin = 0; begin < graph.cornerCount(); begin = graph.faceEnd(begin)) {
+    const Index end = graph.faceEnd(begin);
+    if (end - begin < 3) continue;
+    Vector3 normal{};
+    for (Index c = begin + 1; c + 1 < end; ++c) {
+      const Vector3 part = cross(places.between(graph.site(begin), graph.site(c)),
+                                 places.between(graph.site(begin), graph.site(c + 1)));
+      normal = shortened({normal[0] + part[0], normal[1] + part[1], normal[2] + part[2]}, 60);
+    }
+    const Vector3 even = unit(normal), area = shortened(normal, 46);
+    for (Index c = begin; c < end; ++c) {
+      const Index site = graph.site(c);
+      const int64_t turn = angle(places.between(site, graph.site(graph.next(c))),
+                                 places.between(site, graph.site(graph.prev(c))));
+      SurfaceNormals& sum = sums[site];
+      for (int i = 0; i < 3; ++i) {
+        sum[kEven][i] += even[i];
+        sum[kByAngle][i] += even[i] * turn;
+        sum[kByArea][i] = std::clamp(sum[kByArea][i] + area[i], -kMostArea, kMostArea);
+      }
+    }
+  }
+  for (SurfaceNormals& sum : sums) {
+    for (Vector3& normal : sum) normal = unit(normal);
+  }
+  return sums;
+}
+
+/// Directions: one of the surface's normals, the same with the neighbours' deviation from theirs, or the neighbours'
+/// mean direction: whichever was best at the neighbours. Where directions point into the surface, so do predictions.
+class DirectionGuide {
+ public:
+  /// Without places (an empty span), only the neighbours count. `max` is twice the octahedron's centre.
+  DirectionGuide(const ValueGraph& graph, const std::vector<Node<2>>& nodes, std::span<const int32_t> places, int32_t max)
+      : graph_(graph), nodes_(nodes), states_(graph.siteCount()), centre_(max / 2) {
+    if (places.empty()) return;
+    const std::vector<SurfaceNormals> surface = surfaceNormals(graph, Places(places));
+    for (Index site = 0; site < graph.siteCount(); ++site) {
+      for (int k = 0; k < kWeightings; ++k) {
+        for (int i = 0; i < 3; ++i) states_[site].surface[k][i] = static_cast<int16_t>(surface[site][k][i]);
+      }
+    }
+  }
+
+  void refine(Index site, Stencil<2>& stencil) {
+    std::array<int64_t, kCandidates> errors{};
+    Vector3 sum{}, deviation{};
+    int64_t count = 0, inward = 0;
+    const auto weigh = [&](Index neighbour) {
+      if (!nodes_[neighbour].known) return;
+      const State& state = states_[neighbour];
+      for (int k = 0; k < kCandidates; ++k) errors[k] += state.errors[k];
+      for (int i = 0; i < 3; ++i) {
+        sum[i] += state.direction[i];
+        deviation[i] += state.direction[i] - state.surface[kEven][i];
+      }
+      inward += state.inward;
+      ++count;
+    };
+    for (const Index corner : graph_.cornersOf(site)) {
+      weigh(graph_.site(graph_.next(corner)));
+      const Index prev = graph_.prev(corner);
+      if (graph_.twin(prev) == kNone) weigh(graph_.site(prev));
+    }
+    turn(states_[site], count > 0 ? 2 * inward > count : last_inward_);
+    predict(states_[site], sum, deviation, count, stencil.base);
+    if (count > 0 || surfaceOf(states_[site], kEven) != Vector3{}) choose(errors, stencil);
+  }
+
+  void learn(Index site, const std::array<int32_t, 2>& value) {
+    State& state = states_[site];
+    const Vec<2> truth = {int64_t{value[0]} << kFraction, int64_t{value[1]} << kFraction};
+    for (int k = 0; k < kCandidates; ++k) state.errors[k] = static_cast<uint32_t>(distance(truth, bases_[k]));
+    const Vector3 direction = fromOctahedron(value[0], value[1], centre_);
+    for (int i = 0; i < 3; ++i) state.direction[i] = static_cast<int16_t>(direction[i]);
+    const int64_t along = dot(direction, surfaceOf(state, kEven));
+    if (along < 0) turn(state, !state.inward);
+    if (along != 0) last_inward_ = state.inward;
+  }
+
+ private:
+  enum Candidate { kDeviating = kWeightings, kNeighbourMean, kCandidates };
+
+  struct State {
+    std::array<std::array<int16_t, 3>, kWeightings> surface{};  ///< on the side on which the direction is
+    std::array<int16_t, 3> direction{};
+    bool inward = false;                                        ///< the surface's normals were turned round
+    std::array<uint32_t, kCandidates> errors{};
+  };
+
+  static Vector3 surfaceOf(const State& state, int weighting) {
+    const std::array<int16_t, 3>& normal = state.surface[weighting];
+    return {normal[0], normal[1], normal[2]};
+  }
+
+  static void turn(State& state, bool inward) {
+    if (state.inward == inward) return;
+    state.inward = inward;
+    for (auto& normal : state.surface) {
+      for (int16_t& x : normal) x = static_cast<int16_t>(-x);
+    }
+  }
+
+  void predict(const State& state, const Vector3& sum, const Vector3& deviation, int64_t count, const Vec<2>& fallback) {
+    bases_.fill(fallback);
+    for (int k = 0; k < kWeightings; ++k) {
+      const Vector3 normal = surfaceOf(state, k);
+      project(k, normal == Vector3{} ? sum : normal);
+    }
+    Vector3 deviating = surfaceOf(state, kEven);
+    for (int i = 0; i < 3 && count > 0; ++i) deviating[i] += deviation[i] / count;
+    project(kDeviating, deviating);
+    project(kNeighbourMean, count > 0 ? sum : deviating);
+  }
+
+  void project(int candidate, const Vector3& direction) {
+    const Vector3 shorter = shortened(direction, 24);
+    if (shorter != Vector3{}) bases_[candidate] = toOctahedron(shorter, centre_, kFraction);
+  }
+
+  void choose(const std::array<int64_t, kCandidates>& errors, Stencil<2>& stencil) {
+    int best = 0;
+    for (int k = 1; k < kCandidates; ++k) best = errors[k] < errors[best] ? k : best;
+    int second = best == 0 ? 1 : 0;
+    for (int k = 1; k < kCandidates; ++k) second = k != best && errors[k] < errors[second] ? k : second;
+    stencil.adopt(Source::kAcrossTriangle, bases_[best], std::span(&bases_[best], 1));
+    stencil.lean = bases_[second];
+    for (int i = 0; i < 2; ++i) {
+      const int64_t off = bases_[second][i] - bases_[best][i];
+      stencil.spread[i] = off < 0 ? -off : off;
+    }
+  }
+
+  const ValueGraph& graph_;
+  const std::vector<Node<2>>& nodes_;
+  std::vector<State> states_;
+  const int64_t centre_;
+  bool last_inward_ = false;
+  std::array<Vec<2>, kCandidates> bases_{};  // of the current site
+};
+
+}  // namespace tutte::values
