@@ -42,6 +42,19 @@ Limits limitsFrom(const tutte_limits* limits) {
   return limits ? Limits{limits->max_vertices, limits->max_faces, limits->max_corners} : Limits{};
 }
 
+bool isValid(const tutte_encode_options* options) {
+  return options == nullptr ||
+         (options->profile >= -1 && options->profile <= 3 && options->effort >= 0 && options->effort <= 3);
+}
+
+EncodeOptions optionsFrom(const tutte_encode_options* options) {
+  EncodeOptions result;
+  if (options == nullptr) return result;
+  if (options->profile >= 0) result.profile = static_cast<Profile>(options->profile);
+  result.effort = options->effort;
+  return result;
+}
+
 // Whether the system would give that much. It is given back at once; `volatile` keeps compilers, which may assume that
 // memory is endless, from leaving out the question.
 bool canAllocate(uint64_t bytes) {
@@ -52,12 +65,17 @@ bool canAllocate(uint64_t bytes) {
   return given;
 }
 
-// In bytes, a quarter more than the most that was measured.
-uint64_t memoryFor(const PayloadCounts& counts) {
-  constexpr uint64_t kPerVertex = 80, kPerFace = 40, kPerCorner = 120, kPerTriangle = 30, kFixed = 1 << 20;
-  return kFixed + kPerVertex * (uint64_t{counts.vertices} + counts.wedges) + kPerFace * counts.faces +
-         (kPerCorner + counts.attributes) * counts.corners + kPerTriangle * counts.triangles;
-}
+// Bytes per thing, a fifth more than the most that was measured of any kind of mesh.
+struct MemoryNeeds {
+  uint64_t fixed, vertex, face, corner, triangle;
+
+  uint64_t of(const PayloadCounts& counts) const {
+    return fixed + vertex * (uint64_t{counts.vertices} + counts.wedges) + face * counts.faces +
+           (corner + counts.attributes) * counts.corners + triangle * counts.triangles;
+  }
+};
+
+constexpr MemoryNeeds kEncoding = {10 << 20, 80, 40, 160, 0}, kDecoding = {10 << 20, 80, 40, 70, 20};
 
 // No larger than what encode() takes: so its counts fit their types.
 bool isSmall(const tutte_polygons& polygons) {
@@ -172,22 +190,25 @@ const char* tutte_describe(int32_t status) {
 
 uint64_t tutte_memory_for(const tutte_counts* counts) {
   if (counts == nullptr) return 0;
-  return memoryFor({counts->vertices, counts->wedges, counts->faces, counts->corners, counts->triangles, counts->groups,
-                    counts->attributes});
+  return kDecoding.of({counts->vertices, counts->wedges, counts->faces, counts->corners, counts->triangles,
+                       counts->groups, counts->attributes});
 }
 
-int32_t tutte_encode_connectivity(const tutte_polygons* polygons, tutte_mesh** mesh) {
+int32_t tutte_encode_connectivity(const tutte_polygons* polygons, const tutte_encode_options* options,
+                                  tutte_mesh** mesh) {
   if (mesh == nullptr) return TUTTE_INVALID_ARGUMENT;
   *mesh = nullptr;
-  if (polygons == nullptr || !isSpan(polygons->face_degrees, polygons->face_count, sizeof(Index)) ||
+  if (polygons == nullptr || !isValid(options) ||
+      !isSpan(polygons->face_degrees, polygons->face_count, sizeof(Index)) ||
       !isSpan(polygons->corners, polygons->corner_count, sizeof(Index))) {
     return TUTTE_INVALID_ARGUMENT;
   }
   if (!isSmall(*polygons)) return TUTTE_TOO_LARGE;
-  if (!canAllocate(memoryFor(countsOf(*polygons)))) return TUTTE_OUT_OF_MEMORY;
-  Result<Encoded> encoded = encode({{polygons->face_degrees, polygons->face_count},
-                                    {polygons->corners, polygons->corner_count},
-                                    polygons->vertex_count});
+  if (!canAllocate(kEncoding.of(countsOf(*polygons)))) return TUTTE_OUT_OF_MEMORY;
+  const PolygonView view{{polygons->face_degrees, polygons->face_count},
+                         {polygons->corners, polygons->corner_count},
+                         polygons->vertex_count};
+  Result<Encoded> encoded = encode(view, optionsFrom(options));
   if (!encoded) return statusOf(encoded.error());
   *mesh = newMesh(tutte_mesh::Origin::kEncoded);
   if (*mesh == nullptr) return TUTTE_OUT_OF_MEMORY;
@@ -220,7 +241,7 @@ int32_t tutte_decode_payload(const uint8_t* bytes, size_t size, const tutte_limi
   const Result<PayloadView> payload = parsePayload({bytes, size});
   if (!payload) return statusOf(payload.error());
   if (!isWithin(payload->counts, limitsFrom(limits))) return TUTTE_LIMIT_EXCEEDED;
-  if (!canAllocate(memoryFor(payload->counts))) return TUTTE_OUT_OF_MEMORY;
+  if (!canAllocate(kDecoding.of(payload->counts))) return TUTTE_OUT_OF_MEMORY;
   Result<PayloadMesh, PayloadFailure> decoded = decodePayloadMesh(*payload, limitsFrom(limits));
   if (!decoded) return statusOf(decoded.error().error);
   *mesh = newMesh(tutte_mesh::Origin::kPayload);

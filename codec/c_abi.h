@@ -15,10 +15,10 @@
  * pointers to memory that is not there, and handles that were freed, cannot be detected. Different handles may be used
  * by different threads at once, one handle by one at a time. No C++ exception leaves a function, and none is used:
  *
- * Memory. A payload says how large its mesh is, and an encoder's input is as large as it is; so decoding a payload and
- * encoding first ask the system whether tutte_memory_for() bytes can be had at all, and return TUTTE_OUT_OF_MEMORY if
- * not. A connectivity section alone says nothing about its size: give limits that the memory is large enough for. Should
- * the system refuse memory nevertheless, the process ends (a WebAssembly instance traps).
+ * Memory. A payload says how large its mesh is, and an encoder's input is as large as it is; so both first ask the
+ * system whether as much memory can be had at all as that may take, and return TUTTE_OUT_OF_MEMORY if not. A
+ * connectivity section alone says nothing about its size: give limits that the memory is large enough for. Should the
+ * system refuse memory nevertheless, the process ends (a WebAssembly instance traps).
  */
 #pragma once
 
@@ -76,8 +76,8 @@ typedef struct tutte_counts {
   uint32_t umbrellas;
 } tutte_counts;
 
-/** The memory in bytes that it takes at most to encode or decode a mesh of that size and to read all its arrays, beside
- * the caller's own. */
+/** The memory in bytes that it takes at most to decode a mesh of that size and to read all its arrays, beside the
+ * caller's own. */
 uint64_t tutte_memory_for(const tutte_counts* counts);
 
 /** Polygons to encode: face i has face_degrees[i] corners, and the corners of all faces follow each other. */
@@ -95,9 +95,16 @@ typedef struct tutte_polygons {
 /** A mesh that was encoded or decoded. */
 typedef struct tutte_mesh tutte_mesh;
 
+/** How to encode. No choice changes what is decoded. */
+typedef struct tutte_encode_options {
+  int32_t profile; /**< 0: the paper's, 1: fast, 2: default, 3: small; -1: by the size of the mesh */
+  int32_t effort;  /**< 0 to 3: how long to search for fewer bytes; 1 is usual */
+} tutte_encode_options;
+
 /** Encodes the connectivity of any polygons without loss: TUTTE_SECTION_BYTES, and the orders in which attributes are
- * to be coded. On success *mesh must be freed; on failure it is null. */
-int32_t tutte_encode_connectivity(const tutte_polygons* polygons, tutte_mesh** mesh);
+ * to be coded. Null for `options` is {-1, 1}. On success *mesh must be freed; on failure it is null. */
+int32_t tutte_encode_connectivity(const tutte_polygons* polygons, const tutte_encode_options* options,
+                                  tutte_mesh** mesh);
 
 /** Decodes a connectivity section. `limits` may be null. *mesh as above. */
 int32_t tutte_decode_connectivity(const uint8_t* bytes, size_t size, const tutte_limits* limits, tutte_mesh** mesh);

@@ -48,7 +48,7 @@ template <int kInputs>
 struct alignas(16) Lanes {
   std::array<int16_t, kInputs> lane{};
 
-  /// Sum of products; the caller keeps it within 31 bits.
+  /// Sum of products, modulo 2^32.
   int32_t dot(const Lanes& other) const {
 #if defined(__SSE2__)
     __m128i sum = _mm_setzero_si128();
@@ -62,9 +62,9 @@ struct alignas(16) Lanes {
     return wasm_i32x4_extract_lane(sum, 0) + wasm_i32x4_extract_lane(sum, 1) + wasm_i32x4_extract_lane(sum, 2) +
            wasm_i32x4_extract_lane(sum, 3);
 #else
-    int32_t sum = 0;
-    for (int i = 0; i < kInputs; ++i) sum += lane[i] * other.lane[i];
-    return sum;
+    uint32_t sum = 0;  // wraps as vectors do, where damaged input makes it
+    for (int i = 0; i < kInputs; ++i) sum += static_cast<uint32_t>(lane[i] * other.lane[i]);
+    return static_cast<int32_t>(sum);
 #endif
   }
 

@@ -1,6 +1,5 @@
 #include "codec/payload_mesh.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "codec/decode.h"
@@ -11,15 +10,10 @@ namespace {
 
 // Each step decodes one section into `mesh`.
 
-// While it decodes, the walk knows dummy faces too; their corners are no more than the real ones.
-Limits walkLimits(const PayloadCounts& counts) {
-  return {counts.vertices, counts.faces,
-          static_cast<Index>(std::min<uint64_t>(uint64_t{2} * counts.corners, kNone - 1))};
-}
-
 Error decodeConnectivity(const PayloadView& payload, PayloadMesh& mesh) {
   const PayloadCounts& counts = payload.counts;
-  Result<Connectivity> connectivity = decode(payload[Section::kConnectivity], walkLimits(counts));
+  Result<Connectivity> connectivity =
+      decode(payload[Section::kConnectivity], {counts.vertices, counts.faces, counts.corners});
   if (!connectivity) return connectivity.error();
   mesh.connectivity = *std::move(connectivity);
   mesh.polygons = polygonsOf(mesh.connectivity, &mesh.coded_corners);

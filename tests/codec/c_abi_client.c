@@ -68,12 +68,12 @@ static const char* compare_meshes(tutte_mesh* encoded, tutte_mesh* decoded, cons
   return problem;
 }
 
-const char* c_client_round_trip(const tutte_polygons* polygons) {
+const char* c_client_round_trip(const tutte_polygons* polygons, const tutte_encode_options* options) {
   tutte_mesh *encoded = NULL, *decoded = NULL;
   const char* problem = NULL;
   uint8_t* bytes = NULL;
   int64_t size;
-  const int32_t status = tutte_encode_connectivity(polygons, &encoded);
+  const int32_t status = tutte_encode_connectivity(polygons, options, &encoded);
   if (status != TUTTE_OK) return tutte_describe(status);
   size = tutte_read(encoded, TUTTE_SECTION_BYTES, 1, NULL, 0);
   if (size > 0) bytes = malloc((size_t)size);
@@ -136,12 +136,16 @@ static const char* hostile_input(void) {
   tutte_mesh* mesh;
   tutte_counts counts;
   size_t offset, length;
-  CHECK(tutte_encode_connectivity(NULL, &mesh) == TUTTE_INVALID_ARGUMENT && mesh == NULL);
-  CHECK(tutte_encode_connectivity(&empty, NULL) == TUTTE_INVALID_ARGUMENT);
-  CHECK(tutte_encode_connectivity(&no_arrays, &mesh) == TUTTE_INVALID_ARGUMENT);
-  CHECK(tutte_encode_connectivity(&too_many, &mesh) == TUTTE_INVALID_ARGUMENT);
-  CHECK(tutte_encode_connectivity(&out_of_range, &mesh) == TUTTE_INDEX_OUT_OF_RANGE && mesh == NULL);
-  CHECK(tutte_encode_connectivity(&too_short, &mesh) == TUTTE_COUNT_MISMATCH);
+  CHECK(tutte_encode_connectivity(NULL, NULL, &mesh) == TUTTE_INVALID_ARGUMENT && mesh == NULL);
+  CHECK(tutte_encode_connectivity(&empty, NULL, NULL) == TUTTE_INVALID_ARGUMENT);
+  CHECK(tutte_encode_connectivity(&no_arrays, NULL, &mesh) == TUTTE_INVALID_ARGUMENT);
+  CHECK(tutte_encode_connectivity(&too_many, NULL, &mesh) == TUTTE_INVALID_ARGUMENT);
+  CHECK(tutte_encode_connectivity(&out_of_range, NULL, &mesh) == TUTTE_INDEX_OUT_OF_RANGE && mesh == NULL);
+  CHECK(tutte_encode_connectivity(&too_short, NULL, &mesh) == TUTTE_COUNT_MISMATCH);
+  for (int i = 0; i < 4; ++i) {
+    const tutte_encode_options wrong[4] = {{-2, 1}, {4, 1}, {0, -1}, {0, 4}};
+    CHECK(tutte_encode_connectivity(&empty, &wrong[i], &mesh) == TUTTE_INVALID_ARGUMENT);
+  }
   CHECK(tutte_decode_connectivity(NULL, 1, NULL, &mesh) == TUTTE_INVALID_ARGUMENT);
   CHECK(tutte_decode_connectivity(one, SIZE_MAX, NULL, &mesh) == TUTTE_INVALID_ARGUMENT);
   CHECK(tutte_decode_connectivity(one, 1, NULL, NULL) == TUTTE_INVALID_ARGUMENT);
@@ -186,7 +190,7 @@ const char* c_client_hostile_arguments(void) {
   CHECK(strlen(tutte_describe(12345)) > 0 && strlen(tutte_describe(INT32_MIN)) > 0);
   CHECK(strlen(tutte_describe(TUTTE_NOT_AVAILABLE)) > 0 && strlen(tutte_describe(TUTTE_CHECKSUM)) > 0);
   tutte_free(NULL);
-  CHECK(tutte_encode_connectivity(&polygons, &mesh) == TUTTE_OK);
+  CHECK(tutte_encode_connectivity(&polygons, NULL, &mesh) == TUTTE_OK);
   problem = hostile_reading(mesh);
   tutte_free(mesh);
   return problem;

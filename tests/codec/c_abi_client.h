@@ -7,8 +7,8 @@
 extern "C" {
 #endif
 
-/** Encodes, decodes, and finds the input's polygons again by way of the orders. */
-const char* c_client_round_trip(const tutte_polygons* polygons);
+/** Encodes with `options`, which may be null, decodes, and finds the input's polygons again by way of the orders. */
+const char* c_client_round_trip(const tutte_polygons* polygons, const tutte_encode_options* options);
 
 /** Reads every array of a payload with every stride. */
 const char* c_client_read_payload(const uint8_t* bytes, size_t size);

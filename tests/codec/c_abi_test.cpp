@@ -71,7 +71,11 @@ TEST(CAbi, NumbersAreThoseOfTheCodec) {
 TEST(CAbi, RoundTripsInC) {
   for (const shapes::Named& named : shapes::allShapes()) {
     const tutte_polygons polygons = view(named.shape.mesh);
-    EXPECT_EQ(told(c_client_round_trip(&polygons)), "") << named.name;
+    EXPECT_EQ(told(c_client_round_trip(&polygons, nullptr)), "") << named.name;
+    for (int32_t profile = 0; profile < 4; ++profile) {
+      const tutte_encode_options options = {profile, 0};
+      EXPECT_EQ(told(c_client_round_trip(&polygons, &options)), "") << named.name << ", profile " << profile;
+    }
   }
 }
 

@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   fuzz::demand(decoded->face_degrees.size() <= fuzz::kLimits.max_faces, "more faces than allowed");
 
   const Polygons polygons = polygonsOf(*decoded);
-  const Result<Encoded> encoded = encode(polygons);
+  const Result<Encoded> encoded = encode(polygons, {static_cast<Profile>(size % 4), 0});
   fuzz::demand(encoded.ok(), "a decoded mesh cannot be encoded");
   const Result<Connectivity> again = decode(encoded->bytes);
   fuzz::demand(again.ok(), "an encoded mesh cannot be decoded");

@@ -18,8 +18,8 @@ void write(const std::filesystem::path& path, const Bytes& bytes) {
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-Bytes soupOf(const Polygons& mesh) {
-  Bytes bytes = {static_cast<uint8_t>(mesh.vertex_count)};
+Bytes soupOf(const Polygons& mesh, uint8_t choice) {
+  Bytes bytes = {choice, static_cast<uint8_t>(mesh.vertex_count)};
   size_t corner = 0;
   for (const Index degree : mesh.face_degrees) {
     bytes.push_back(static_cast<uint8_t>(degree));
@@ -43,13 +43,15 @@ Bytes forgeryOf(const Bytes& section) {
 int main(int count, char** arguments) {
   if (count != 2) return 1;
   const std::filesystem::path directory = arguments[1];
+  uint8_t choice = 0;
   for (const shapes::Named& named : shapes::allShapes()) {
     const Polygons& mesh = named.shape.mesh;
-    const Result<Encoded> encoded = encode(mesh);
-    if (!encoded || encoded->bytes.size() > 1000) continue;
+    const Result<Encoded> encoded = encode(mesh, {static_cast<Profile>(++choice % 4), choice / 4 % 2});
+    if (!encoded || encoded->bytes.size() > 500) continue;
     write(directory / "section" / named.name, encoded->bytes);
     write(directory / "payload" / named.name, forgeryOf(encoded->bytes));
-    if (mesh.vertex_count < 256 && mesh.corners.size() < 1000) write(directory / "mesh" / named.name, soupOf(mesh));
+    const bool small = mesh.vertex_count < 256 && mesh.corners.size() < 500;
+    if (small) write(directory / "mesh" / named.name, soupOf(mesh, choice));
   }
   return 0;
 }
