@@ -187,11 +187,4 @@ void SiteOrder::setScore(Index site, Index score) {
   top_ = std::max(top_, level);
 }
 
-std::vector<Index> siteOrder(const ValueGraph& graph) {
-  SiteOrder order(graph);
-  std::vector<Index> sites(graph.siteCount());
-  for (Index& site : sites) site = order.next();
-  return sites;
-}
-
 }  // namespace tutte

@@ -99,7 +99,20 @@ class SiteOrder {
   std::vector<Index> known_;  // per face, at its first corner: how many of its corners are known
 };
 
-/// All sites in that order.
-std::vector<Index> siteOrder(const ValueGraph& graph);
+/// The same order, which may be walked more than once; made as far as it is asked for.
+class SiteSequence {
+ public:
+  explicit SiteSequence(const ValueGraph& graph) : order_(graph) { sites_.reserve(graph.siteCount()); }
+
+  /// The i-th site, i below the number of sites; i rises by one from call to call, or goes back.
+  Index operator[](size_t i) {
+    if (i == sites_.size()) sites_.push_back(order_.next());
+    return sites_[i];
+  }
+
+ private:
+  SiteOrder order_;
+  std::vector<Index> sites_;
+};
 
 }  // namespace tutte

@@ -45,7 +45,7 @@ class Mixer {
   Mixer() { weights_.fill(kInitial); }
 
   template <class Port>
-  bool code(Port& port, const std::array<Chance*, kInputs>& chances, bool value) {
+  [[gnu::always_inline]] bool code(Port& port, const std::array<Chance*, kInputs>& chances, bool value) {
     if constexpr (kInputs == 1) {
       return chances[0]->code(port, value);
     } else {

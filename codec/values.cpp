@@ -76,8 +76,8 @@ struct Run {
   template <class Code>
   Error everySite(Code code) {
     Index until_check = 1;
-    for (const Index site : sites.order) {
-      code(site);
+    for (Index i = 0; i < sites.graph.siteCount(); ++i) {
+      code(sites.order[i]);
       if (Port::kWriting || --until_check != 0) continue;
       if (port.overrun()) return Error::kTruncated;
       until_check = 1024;

@@ -36,10 +36,10 @@ struct ValueFormat {
   bool ranked = false;             ///< (kPlain, kPoints) each component is one of a list: their ranks are coded
 };
 
-/// A mesh's sites, and in which order they are coded (siteOrder()).
+/// A mesh's sites, and in which order they are coded.
 struct ValueSites {
   const ValueGraph& graph;
-  std::span<const Index> order;
+  SiteSequence& order;
   std::span<const int32_t> places;  ///< three numbers below 2^20 per site: where it is. kTexcoord needs them, kDirection
                                     ///< is better with them, others do not look at them; may be empty
 };

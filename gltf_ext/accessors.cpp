@@ -75,19 +75,34 @@ Outcome<std::vector<Index>> readSparseIndices(const Asset& asset, const Json& sp
   return indices;
 }
 
-Outcome<Done> applySparse(const Asset& asset, const Json& sparse, const AccessorShape& shape, Bytes& data,
-                          const std::string& where) {
+/// Which elements a sparse accessor replaces, and by what.
+struct SparseParts {
+  std::vector<Index> indices;
+  Elements values;
+};
+
+Outcome<SparseParts> sparseParts(const Asset& asset, const Json& sparse, const AccessorShape& shape,
+                                 const std::string& where) {
   const auto count = integerMember(sparse, "count", where);
   if (!count) return count.error();
   if (*count > shape.count) return invalid(where + "/count", "more sparse values than the accessor has elements");
-  const auto indices = readSparseIndices(asset, sparse, *count, shape.count, where);
+  auto indices = readSparseIndices(asset, sparse, *count, shape.count, where);
   if (!indices) return indices.error();
   const Json* part = objectMember(sparse, "values");
   if (!part) return invalid(where, "a sparse accessor needs values");
-  const uint64_t size = shape.elementBytes();
-  const auto values = elementsOf(asset, *part, *count, size, false, where + "/values");
+  const auto values = elementsOf(asset, *part, *count, shape.elementBytes(), false, where + "/values");
   if (!values) return values.error();
-  for (uint64_t i = 0; i < *count; ++i) std::memcpy(data.data() + (*indices)[i] * size, values->at(i), size);
+  return SparseParts{*std::move(indices), *values};
+}
+
+Outcome<Done> applySparse(const Asset& asset, const Json& sparse, const AccessorShape& shape, Bytes& data,
+                          const std::string& where) {
+  const auto parts = sparseParts(asset, sparse, shape, where);
+  if (!parts) return parts.error();
+  const uint64_t size = shape.elementBytes();
+  for (size_t i = 0; i < parts->indices.size(); ++i) {
+    std::memcpy(data.data() + parts->indices[i] * size, parts->values.at(i), size);
+  }
   return Done{};
 }
 
@@ -167,6 +182,26 @@ Outcome<Bytes> readAccessor(const Asset& asset, uint64_t index) {
     if (!applied) return applied.error();
   }
   return data;
+}
+
+Outcome<Done> checkAccessor(const Asset& asset, uint64_t index, uint64_t& sparse_budget) {
+  const std::string where = pointerTo("accessors", index);
+  const auto shape = accessorShape(asset.json, index);
+  if (!shape) return shape.error();
+  const Json& accessor = asset.json["accessors"][index];
+  if (member(accessor, "bufferView")) {
+    const auto dense = elementsOf(asset, accessor, shape->count, shape->elementBytes(), true, where);
+    if (!dense) return dense.error();
+  }
+  const Json* sparse = member(accessor, "sparse");
+  if (!sparse) return Done{};
+  const auto count = integerMember(*sparse, "count", where + "/sparse");
+  if (!count) return count.error();
+  if (*count > sparse_budget) return invalid(where + "/sparse/count", "the sparse accessors overlap too much");
+  sparse_budget -= *count;
+  const auto parts = sparseParts(asset, *sparse, *shape, where + "/sparse");
+  if (!parts) return parts.error();
+  return Done{};
 }
 
 Outcome<std::vector<Index>> readIndices(const Asset& asset, uint64_t index) {

@@ -37,6 +37,10 @@ Outcome<std::span<const uint8_t>> viewBytes(const Asset& asset, uint64_t index);
 /// buffer view is all zeros, and is refused when that would take more than 256 MiB.
 Outcome<Bytes> readAccessor(const Asset& asset, uint64_t index);
 
+/// The checks of readAccessor() without the data. `sparse_budget` is lowered by the number of sparse values, and when
+/// it does not suffice the accessor is refused: so that many accessors over the same bytes cannot take much time.
+Outcome<Done> checkAccessor(const Asset& asset, uint64_t index, uint64_t& sparse_budget);
+
 /// A SCALAR accessor of unsigned integers. Errors: kInvalid for any other.
 Outcome<std::vector<Index>> readIndices(const Asset& asset, uint64_t index);
 

@@ -95,9 +95,11 @@ class PayloadMeshes {
     return true;
   }
 
+  /// Groups without triangles begin where their successor does, so that several have the same start.
   static Index groupAt(const std::vector<Index>& starts, uint64_t begin, uint64_t count) {
-    for (size_t g = 0; g + 1 < starts.size(); ++g) {
-      if (starts[g] == begin && starts[g + 1] - starts[g] == count) return static_cast<Index>(g);
+    const auto first = std::lower_bound(starts.begin(), starts.end(), begin);
+    for (size_t g = static_cast<size_t>(first - starts.begin()); g + 1 < starts.size() && starts[g] == begin; ++g) {
+      if (starts[g + 1] - starts[g] == count) return static_cast<Index>(g);
     }
     return kNone;
   }
@@ -172,39 +174,31 @@ class SceneReader {
     return readPlain(plain_, plan, usesUnmarkedFans(plain_.json));
   }
 
+  /// Per group that a mesh shows: its material or -1.
+  using ShownGroups = std::map<Index, int>;
+
   /// One scene mesh for each glTF mesh that the plan has primitives of.
   void addMeshes(const PayloadPlan& plan, const PlannedMesh& planned) {
-    std::map<size_t, std::vector<std::pair<Index, int>>> groups;
+    std::map<size_t, ShownGroups> groups;
     for (size_t i = 0; i < plan.primitives.size(); ++i) {
       const PrimitivePlace place = plan.primitives[i];
       const Json& primitive = plain_.json["meshes"][place.mesh]["primitives"][place.primitive];
       const auto material = integerMember(primitive, "material", "");
       const bool known = material && *material < countOf(plain_.json, "materials");
       if (planned.group_of[i] == kNone) continue;
-      auto& list = groups[place.mesh];
-      const Index group = planned.group_of[i];
-      if (std::any_of(list.begin(), list.end(), [&](const auto& item) { return item.first == group; })) continue;
-      list.push_back({group, known ? static_cast<int>(*material) : -1});
+      groups[place.mesh].try_emplace(planned.group_of[i], known ? static_cast<int>(*material) : -1);
     }
     // Groups that no primitive shows (faces without area, of imported meshes) belong to the one mesh that there is.
-    if (groups.size() == 1) addHiddenGroups(planned.mesh.group_count, groups.begin()->second);
-    for (const auto& [mesh, list] : groups) addMesh(mesh, list, planned.mesh);
-  }
-
-  static void addHiddenGroups(Index group_count, std::vector<std::pair<Index, int>>& list) {
-    if (list.size() == group_count) return;
-    std::vector<uint8_t> shown(group_count);
-    for (const auto& [group, material] : list) shown[group] = 1;
-    for (Index group = 0; group < group_count; ++group) {
-      if (!shown[group]) list.push_back({group, -1});
+    for (Index group = 0; groups.size() == 1 && group < planned.mesh.group_count; ++group) {
+      groups.begin()->second.try_emplace(group, -1);
     }
-    std::sort(list.begin(), list.end());
+    for (const auto& [mesh, shown] : groups) addMesh(mesh, shown, planned.mesh);
   }
 
-  void addMesh(size_t mesh, const std::vector<std::pair<Index, int>>& list, const PolygonMesh& whole) {
+  void addMesh(size_t mesh, const ShownGroups& shown, const PolygonMesh& whole) {
     SceneMesh result;
     std::vector<Index> groups;
-    for (const auto& [group, material] : list) {
+    for (const auto& [group, material] : shown) {
       groups.push_back(group);
       result.group_materials.push_back(material);
     }

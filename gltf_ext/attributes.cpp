@@ -172,6 +172,13 @@ Outcome<std::vector<Attribute>> describeAttributes(std::span<const uint8_t> byte
   return std::move(head->attributes);
 }
 
+Outcome<std::vector<AttributeCoding>> describeCodings(std::span<const uint8_t> bytes) {
+  ByteReader in(bytes);
+  auto head = readHead(in);
+  if (!head) return head.error();
+  return std::move(head->codings);
+}
+
 Outcome<std::vector<Attribute>> decodeAttributes(const AttributeTopology& topology, std::span<const uint8_t> bytes) {
   ByteReader in(bytes);
   auto head = readHead(in);

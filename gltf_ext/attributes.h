@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "codec/mesh.h"
+#include "gltf_ext/attribute_coding.h"
 #include "gltf_ext/failure.h"
 #include "gltf_ext/pack.h"
 #include "gltf_ext/polygon_mesh.h"
@@ -29,6 +30,9 @@ Outcome<std::vector<uint8_t>> encodeAttributes(const AttributeTopology& topology
 /// The attribute descriptions (everything but `data`) at the head of the section, so that seams can be read before
 /// values. Any bytes may be passed; at most 4096 attributes.
 Outcome<std::vector<Attribute>> describeAttributes(std::span<const uint8_t> bytes);
+
+/// How each of them was brought to whole numbers: as describeAttributes(), in the same order.
+Outcome<std::vector<AttributeCoding>> describeCodings(std::span<const uint8_t> bytes);
 
 /// All attributes, or a Failure. Any bytes may be passed: nothing escapes but the Outcome, and memory is in proportion
 /// to attributes * wedges, corners and bytes.

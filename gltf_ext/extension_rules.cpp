@@ -27,6 +27,7 @@ class Rules {
     }
     checkOverlaps();
     for (size_t i = 0; i < countOf(json_, "buffers"); ++i) checkBuffer(i);
+    checkUsers();
     checkLists();
     return std::move(failures_);
   }
@@ -119,19 +120,21 @@ class Rules {
     if (!fallback || *fallback != true) {
       fail(where + "/extensions/" + kExtensionName + "/fallback", "this must be true");
     }
-    needed_ |= asset_.buffers[index].empty();
-    checkUsers(index, where);
+    needed_ |= index >= asset_.buffers.size() || asset_.buffers[index].empty();
+    placeholders_.insert(index);
   }
 
   /// Only compressed views may lie in a placeholder.
-  void checkUsers(size_t buffer, const std::string& where) {
-    for (size_t i = 0; i < countOf(json_, "bufferViews"); ++i) {
+  void checkUsers() {
+    for (size_t i = 0; i < countOf(json_, "bufferViews") && !placeholders_.empty(); ++i) {
       const Json& view = json_["bufferViews"][i];
       const Json* used = member(view, "buffer");
-      if (!used || asInteger(*used) != buffer) continue;
+      const auto buffer = used ? asInteger(*used) : std::nullopt;
+      if (!buffer || !placeholders_.count(*buffer)) continue;
       const Json* extensions = objectMember(view, "extensions");
       if (!extensions || !extensions->contains(kExtensionName)) {
-        fail(pointerTo("bufferViews", i), "an ordinary buffer view lies in the fallback buffer " + where);
+        fail(pointerTo("bufferViews", i),
+             "an ordinary buffer view lies in the fallback " + pointerTo("buffers", *buffer));
       }
     }
   }
@@ -152,6 +155,7 @@ class Rules {
   std::set<PayloadRange> payloads_;
   std::set<std::tuple<PayloadRange, Mode, uint64_t>> arrays_;
   std::map<uint64_t, std::vector<std::pair<uint64_t, uint64_t>>> places_;
+  std::set<uint64_t> placeholders_;
   size_t views_ = 0;
   bool needed_ = false;
 };

@@ -44,8 +44,8 @@ struct Scene {
   std::vector<SceneMaterial> materials;
 };
 
-/// A compressed glTF asset of the scene: one payload per mesh, one primitive per group. Meshes whose polygons are not
-/// all triangles need a triangulation (triangulate() makes one). Meshes without faces become no primitive.
+/// A compressed glTF asset of the scene: one payload per mesh, one primitive per group. Meshes
+/// without a triangulation get one from pack(). Meshes without faces become no primitive.
 Outcome<Compressed> sceneToAsset(const Scene& scene, const CompressOptions& options = {});
 
 /// The triangle and polygon meshes of a plain or compressed asset, for exporters and comparison.

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <utility>
 
-#include "codec/encode.h"
 #include "gltf_ext/ear_clipping.h"
 
 namespace tutte {
@@ -70,8 +69,7 @@ Point3 normalOf(std::span<const Point3> ring) {
 
 class FaceTriangulator {
  public:
-  FaceTriangulator(PolygonMesh& mesh, std::span<const Index> first_corners)
-      : mesh_(mesh), positions_(mesh), first_corners_(first_corners) {
+  explicit FaceTriangulator(PolygonMesh& mesh) : mesh_(mesh), positions_(mesh) {
     const auto& degrees = mesh.polygons.face_degrees;
     starts_.resize(degrees.size());
     Index start = 0;
@@ -92,9 +90,6 @@ class FaceTriangulator {
   }
 
  private:
-  /// The corner within its face where its fan begins by preference.
-  Index preferredApex(Index face) const { return first_corners_.empty() ? 0 : first_corners_[face] - starts_[face]; }
-
   bool isHole(Index face) const { return !mesh_.ring_owners.empty() && mesh_.ring_owners[face] != kNone; }
 
   void linkHoles() {
@@ -114,14 +109,13 @@ class FaceTriangulator {
     const Index degree = mesh_.polygons.face_degrees[face];
     if (degree < 3) return;
     const auto holes = holesOf(face);
-    const Index preferred = preferredApex(face);
-    if (degree == 3 && holes.empty()) return addFan(starts_[face], degree, preferred);
+    if (degree == 3 && holes.empty()) return addFan(starts_[face], degree, 0);
     corners_.clear();
     ring_sizes_.clear();
     addRing(face);
     for (const auto& [owner, hole] : holes) addRing(hole);
-    if (!project(degree) && holes.empty()) return addFan(starts_[face], degree, preferred);
-    const Index apex = holes.empty() ? findApex(preferred) : kNone;
+    if (!project(degree) && holes.empty()) return addFan(starts_[face], degree, 0);
+    const Index apex = holes.empty() ? findApex() : kNone;
     if (apex != kNone) return addFan(starts_[face], degree, apex);
     ears_.clear();
     clipEars(flat_, ring_sizes_, tolerance_, ears_);
@@ -166,12 +160,11 @@ class FaceTriangulator {
     return std::isfinite(size);
   }
 
-  /// The first corner, from `preferred` on, whose fan covers the (only) ring, or kNone.
-  Index findApex(Index preferred) const {
+  /// The first corner whose fan covers the (only) ring, or kNone.
+  Index findApex() const {
     const auto degree = static_cast<Index>(flat_.size());
     int64_t budget = kApexSteps + 8 * int64_t{degree};
-    for (Index tried = 0; tried < degree && budget > 0; ++tried) {
-      const Index apex = (preferred + tried) % degree;
+    for (Index apex = 0; apex < degree && budget > 0; ++apex) {
       Index i = 1;
       while (i + 1 < degree && isCovered(apex, i)) ++i;
       if (i + 1 == degree) return apex;
@@ -193,7 +186,6 @@ class FaceTriangulator {
 
   PolygonMesh& mesh_;
   Positions positions_;
-  std::span<const Index> first_corners_;
   std::vector<Index> starts_;
   std::vector<std::pair<Index, Index>> holes_;  // owner, interior ring; sorted
 
@@ -208,23 +200,8 @@ class FaceTriangulator {
 
 }  // namespace
 
-void triangulate(PolygonMesh& mesh, std::span<const Index> first_corners) {
-  if (mesh.triangulation.counts.empty()) FaceTriangulator(mesh, first_corners).run();
-}
-
-std::vector<Index> codedFirstCorners(const Polygons& polygons) {
-  const auto& degrees = polygons.face_degrees;
-  if (std::all_of(degrees.begin(), degrees.end(), [](Index degree) { return degree == 3; })) return {};
-  const Result<Encoded> encoded = encode(polygons);
-  if (!encoded) return {};
-  std::vector<Index> firsts(degrees.size());
-  Index start = 0;
-  for (size_t coded = 0; coded < degrees.size(); ++coded) {
-    const Index degree = encoded->connectivity.face_degrees[coded];
-    if (degree > 0) firsts[encoded->face_order[coded]] = encoded->corner_order[start];
-    start += degree;
-  }
-  return firsts;
+void triangulate(PolygonMesh& mesh) {
+  if (mesh.triangulation.counts.empty()) FaceTriangulator(mesh).run();
 }
 
 }  // namespace tutte

@@ -13,7 +13,7 @@ namespace {
 struct Layout {
   WedgeSites wedges;
   std::optional<ValueGraph> graph;
-  std::vector<Index> order;
+  std::optional<SiteSequence> order;
 };
 
 /// The layouts of one mesh, made when they are first asked for; attributes with equal seams share one.
@@ -21,7 +21,7 @@ class Layouts {
  public:
   explicit Layouts(const AttributeTopology& topology) : topology_(topology) {}
 
-  const Layout& get(size_t attribute) {
+  Layout& get(size_t attribute) {
     const bool positions = attribute == 0;
     const std::span<const uint8_t> seams = attribute < topology_.seams.size() ? topology_.seams[attribute] : none_;
     for (const Entry& entry : entries_) {
@@ -53,7 +53,7 @@ class Layouts {
                                : joinWedges(mesh, topology_.wedges, topology_.wedge_count, seams);
     const auto site_of = [&](Index corner) { return layout->wedges.site_of[topology_.wedges[corner]]; };
     layout->graph.emplace(mesh, layout->wedges.count, site_of);
-    layout->order = siteOrder(*layout->graph);
+    layout->order.emplace(*layout->graph);
     return layout;
   }
 
@@ -181,13 +181,13 @@ Outcome<std::vector<uint8_t>> encodeValuePlanes(const AttributeTopology& topolog
   ByteWriter out;
   for (size_t i = 0; i < planes.size(); ++i) {
     const Plane& plane = planes[i];
-    const Layout& layout = layouts.get(plane.attribute);
+    Layout& layout = layouts.get(plane.attribute);
     const std::vector<int32_t> values = siteValues(plane, layout.wedges);
     if (values.empty() && layout.wedges.count > 0) {
       return Failure{FailureKind::kInvalid, "", "an attribute has two values where its seams allow one"};
     }
     const std::vector<int32_t> places = placesOf(planes, i, layout.wedges);
-    writePlane({*layout.graph, layout.order, places}, plane, values, profile, out);
+    writePlane({*layout.graph, *layout.order, places}, plane, values, profile, out);
   }
   return std::move(out).take();
 }
@@ -198,9 +198,9 @@ bool decodeValuePlanes(const AttributeTopology& topology, std::span<const uint8_
   Layouts layouts(topology);
   ByteReader in(bytes);
   for (size_t i = 0; i < planes.size(); ++i) {
-    const Layout& layout = layouts.get(planes[i].attribute);
+    Layout& layout = layouts.get(planes[i].attribute);
     const std::vector<int32_t> places = placesOf(planes, i, layout.wedges);
-    if (!readPlane({*layout.graph, layout.order, places}, layout.wedges, in, planes[i])) return false;
+    if (!readPlane({*layout.graph, *layout.order, places}, layout.wedges, in, planes[i])) return false;
   }
   return in.error() == Error::kNone && in.remaining() == 0;
 }

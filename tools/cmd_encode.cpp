@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "gltf_ext/files.h"
-#include "gltf_ext/triangulate.h"
 #include "tools/command.h"
 #include "tools/import.h"
 
@@ -40,7 +39,6 @@ struct Encode {
     Outcome<Imported> imported = importScene(input);
     if (!imported) return imported.error();
     for (const std::string& warning : imported->warnings) printWarning(input, warning);
-    for (SceneMesh& mesh : imported->scene.meshes) triangulate(mesh.mesh, codedFirstCorners(mesh.mesh.polygons));
     return sceneToAsset(imported->scene, options);
   }
 

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "codec/section.h"
 #include "codec/trace.h"
 #include "tools/command.h"
 #include "tools/payloads.h"
@@ -35,8 +36,11 @@ Outcome<Done> traceFile(const std::string& input) {
   const Outcome<std::vector<PayloadBytes>> payloads = payloadsOf(*asset);
   if (!payloads) return inFile(payloads.error(), input);
   for (size_t i = 0; i < payloads->size(); ++i) {
-    std::printf("payload %zu\n", i);
-    const Error error = trace((*payloads)[i].view[Section::kConnectivity], Limits{}, printEvent);
+    const auto section = (*payloads)[i].view[Section::kConnectivity];
+    SectionHeader header;
+    const bool dual = readSection(section, header).ok() && header.dual;
+    std::printf("payload %zu%s\n", i, dual ? ", dual: faces and vertices have changed places" : "");
+    const Error error = trace(section, Limits{}, printEvent);
     if (error != Error::kNone) return inFile(failureOf(error, "payload " + std::to_string(i)), input);
   }
   return Done{};

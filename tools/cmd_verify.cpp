@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
 
@@ -7,9 +9,21 @@
 namespace tutte {
 namespace {
 
+/// The options that tell how coarse the second file may be.
+struct BitsOption {
+  const char* name;
+  int PackOptions::*member;
+};
+constexpr std::array<BitsOption, 5> kBits{{{"--qp", &PackOptions::position_bits},
+                                           {"--qn", &PackOptions::normal_bits},
+                                           {"--qt", &PackOptions::texcoord_bits},
+                                           {"--qc", &PackOptions::color_bits},
+                                           {"--qg", &PackOptions::generic_bits}}};
+
 struct Verify {
   std::string first, second;
   CompareOptions options;
+  std::array<bool, kBits.size()> given{};  ///< by the user
   std::vector<std::string> attributes;
 
   Outcome<Done> run() {
@@ -18,6 +32,9 @@ struct Verify {
     if (!a) return a.error();
     const Outcome<LoadedScene> b = loadScene(second);
     if (!b) return b.error();
+    for (const auto* bits : {&a->bits, &b->bits}) {
+      if (*bits) takeBits(**bits);
+    }
     Comparison comparison = compare(a->scene, b->scene, options);
     bool by_place = false;
     if (!comparison.same && !(a->keeps_vertices && b->keeps_vertices)) {
@@ -34,6 +51,20 @@ struct Verify {
                 withCommas(comparison.vertices).c_str(), by_place ? " (compared by place)" : "");
     return Done{};
   }
+
+ private:
+  /// What a file says about its quantisation, where the user says nothing; the coarser of two counts.
+  void takeBits(const PackOptions& coded) {
+    for (size_t i = 0; i < kBits.size(); ++i) {
+      if (given[i]) continue;
+      int& bits = options.bits.*kBits[i].member;
+      const int own = coded.*kBits[i].member;
+      bits = !taken_ ? own : bits == 0 ? own : own == 0 ? bits : std::min(bits, own);
+    }
+    taken_ = true;
+  }
+
+  bool taken_ = false;
 };
 
 }  // namespace
@@ -52,9 +83,14 @@ void addVerify(CLI::App& app, Action& action) {
   addAttributes(command, verify->attributes);
   addExamples(command,
               "  tutte verify model.obj model.glb\n"
-              "  tutte verify --qp 11 model.obj model.glb     when encoded with --qp 11\n"
-              "  tutte verify --attributes POSITION a.ply b.ply");
-  command.callback([verify, &action] { action = [verify] { return verify->run(); }; });
+              "  tutte verify --qp 11 model.obj decoded.obj     when it was encoded with --qp 11\n"
+              "  tutte verify --attributes POSITION a.ply b.ply\n"
+              "\n"
+              "Compressed files say how they are quantised; the options are for others.");
+  command.callback([verify, &command, &action] {
+    for (size_t i = 0; i < kBits.size(); ++i) verify->given[i] = command.count(kBits[i].name) > 0;
+    action = [verify] { return verify->run(); };
+  });
 }
 
 }  // namespace tutte

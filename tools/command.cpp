@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <map>
 
-#include "gltf_ext/extension.h"
 #include "gltf_ext/files.h"
 #include "tools/import.h"
+#include "tools/payloads.h"
 #include "tools/text.h"
 
 namespace tutte {
@@ -101,16 +101,14 @@ Outcome<LoadedScene> loadScene(const std::filesystem::path& path) {
     Outcome<Imported> imported = importScene(path);
     if (!imported) return inFile(imported.error(), path);
     for (const std::string& warning : imported->warnings) printWarning(path, warning);
-    return LoadedScene{std::move(imported->scene), format != FileFormat::kOther};
+    return LoadedScene{std::move(imported->scene), {}, format != FileFormat::kOther};
   }
   const Outcome<Asset> asset = loadAsset(path);
   if (!asset) return inFile(asset.error(), path);
   Outcome<Scene> scene = assetToScene(*asset);
   if (!scene) return inFile(scene.error(), path);
-  const auto used = asset->json.find("extensionsUsed");
-  const bool ours = used != asset->json.end() && used->is_array() &&
-                    std::find(used->begin(), used->end(), kExtensionName) != used->end();
-  return LoadedScene{*std::move(scene), ours};
+  const std::optional<PackOptions> bits = codedBits(*asset);
+  return LoadedScene{*std::move(scene), bits, bits.has_value()};
 }
 
 bool isGltfName(const std::filesystem::path& path) {

@@ -63,6 +63,7 @@ void printWarnings(const std::filesystem::path& path, const std::vector<Failure>
 /// A file of any kind as a Scene; warnings are printed.
 struct LoadedScene {
   Scene scene;
+  std::optional<PackOptions> bits;  ///< how its payloads are quantised, if it has any
   bool keeps_vertices = true;  ///< the file says which corners share a vertex (plain glTF does not, welding guesses)
 };
 Outcome<LoadedScene> loadScene(const std::filesystem::path& path);

@@ -48,7 +48,9 @@ double toleranceOf(const Attribute& attribute, const std::vector<float>& values,
   if (bits == 0) return attribute.name.starts_with("TEXCOORD_") ? flippingError(values) : 0;
   // A unit vector on the octahedron: steps are wider where it is stretched most.
   if (attribute.name == "NORMAL" || attribute.name == "TANGENT") return 4 / std::exp2(bits);
-  return quantizationError(values, attribute.components, bits);
+  const double error = quantizationError(values, attribute.components, bits);
+  // Colors are stored on a grid from 0 to 1, however little of it they use.
+  return attribute.name.starts_with("COLOR_") ? std::max(error, 0.5001 / (std::exp2(bits) - 1)) : error;
 }
 
 class Flattener {

@@ -1,6 +1,7 @@
 #pragma once
 // The payloads of an asset, for the commands that look into them.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "gltf_ext/asset.h"
 #include "gltf_ext/extension.h"
 #include "gltf_ext/failure.h"
+#include "gltf_ext/pack.h"
 
 namespace tutte {
 
@@ -20,5 +22,9 @@ struct PayloadBytes {
 /// All payloads with valid headers and checksums, in order of their place. Errors: as decompress(); kUnsupported when
 /// the asset has none.
 Outcome<std::vector<PayloadBytes>> payloadsOf(const Asset& asset);
+
+/// The coarsest quantisation that the payloads state, per kind of attribute; 0 where all are without loss. Nothing when
+/// the asset has no payload that can be read.
+std::optional<PackOptions> codedBits(const Asset& asset);
 
 }  // namespace tutte

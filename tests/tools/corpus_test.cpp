@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iostream>
 
-#include "gltf_ext/triangulate.h"
 #include "tests/tools/scratch.h"
 #include "tools/command.h"
 #include "tools/compare.h"
@@ -37,9 +36,7 @@ Outcome<Compressed> encodeFile(const std::filesystem::path& path, const Scene& s
     if (!asset) return asset.error();
     return compress(*asset);
   }
-  Scene triangulated = scene;
-  for (SceneMesh& mesh : triangulated.meshes) triangulate(mesh.mesh, codedFirstCorners(mesh.mesh.polygons));
-  return sceneToAsset(triangulated);
+  return sceneToAsset(scene);
 }
 
 /// Why the file is refused, or nothing. Whatever is encoded must come back.
