@@ -176,8 +176,7 @@ std::map<uint64_t, Hull> hullsOf(const Asset& asset, const std::set<uint64_t>& v
   std::map<uint64_t, Hull> hulls;
   for (size_t i = 0; i < countOf(asset.json, "accessors"); ++i) {
     const Json& accessor = asset.json["accessors"][i];
-    const Json* reference = member(accessor, "bufferView");
-    const auto view = reference ? asInteger(*reference) : std::nullopt;
+    const auto view = integerMember(accessor, "bufferView", "");
     const auto shape = accessorShape(asset.json, i);
     const auto offset = integerMember(accessor, "byteOffset", 0, "");
     if (!view || !views.count(*view) || !shape || !offset || *offset > kMaxJsonInteger / 2) continue;
