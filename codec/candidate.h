@@ -22,12 +22,12 @@ struct Candidate {
 /// A candidate's walk: its streams, and which part of the topology came when.
 struct WalkedCandidate {
   SectionHeader header;
-  Connectivity connectivity;            ///< of the walked topology: in a dual, the dual's
-  std::vector<Index> start_corners;     ///< per coded face: the topology's corner where it begins
-  std::vector<Index> umbrella_order;    ///< per coded umbrella: the topology's
+  Connectivity connectivity;          ///< of the walked topology: in a dual, the dual's
+  std::vector<Index> start_corners;   ///< per coded face: the topology's corner where it begins
+  std::vector<Index> umbrella_order;  ///< per coded umbrella: the topology's
   std::vector<uint8_t> on_boundary;
   std::vector<Index> dummy_umbrellas;
-  RangeWriter valences, degrees;        ///< still open: repairs follow
+  RangeWriter valences, degrees;  ///< still open: repairs follow
   Index splits = 0;
 
   size_t bits() const { return valences.bits() + degrees.bits(); }

@@ -15,13 +15,15 @@ class ComponentLog {
   explicit ComponentLog(bool used) : used_(used) {}
 
   /// Codes whether the component that begins repeats an earlier one, and which: the more recently used, the cheaper.
-  /// `original` is the encoder's knowledge; one that was not used for long is coded again. Returns false where the stream names a component that does not exist.
+  /// `original` is the encoder's knowledge; one that was not used for long is coded again. Returns false where the
+  /// stream names a component that does not exist.
   template <class Port>
   bool begin(Port& port, Index original) {
     replaying_ = false;
     if (!used_) return true;
     const Index number = components_++;
-    const auto known = std::find_if(recent_.begin(), recent_.end(), [&](const Entry& e) { return e.number == original; });
+    const auto known =
+        std::find_if(recent_.begin(), recent_.end(), [&](const Entry& e) { return e.number == original; });
     const bool copy = !recent_.empty() && copy_.code(port, known != recent_.end());
     if (copy) {
       const Index rank = rank_.code(port, static_cast<Index>(known - recent_.begin()));

@@ -60,7 +60,8 @@ class Matcher {
       const Index edge = edges_[i], image = image_[edge];
       const Index image_origin = mirrored ? faces.next(image) : image;
       same = topology_.isDummy(faces.face[edge]) == topology_.isDummy(faces.face[image]) &&
-             ringOf(topology_, edge) == ringOf(topology_, image_origin) && assign(faces.next(edge), mirrored ? faces.prev(image) : faces.next(image)) &&
+             ringOf(topology_, edge) == ringOf(topology_, image_origin) &&
+             assign(faces.next(edge), mirrored ? faces.prev(image) : faces.next(image)) &&
              assign(topology_.twin[edge], topology_.twin[image]);
     }
     return same;

@@ -50,13 +50,13 @@ inline constexpr Gap kNoGap{};
 
 /// Around a missing vertex. "Head" and "current" are the vertices of the face between which it lies.
 struct VertexFeatures {
-  uint64_t face, missing, mode;                       // the face's degree (dummy: 1), vertices missing, usual valence
-  uint64_t head, current, before, after;              // valences: at head, at current, and beyond them on the boundary
+  uint64_t face, missing, mode;           // the face's degree (dummy: 1), vertices missing, usual valence
+  uint64_t head, current, before, after;  // valences: at head, at current, and beyond them on the boundary
   uint64_t head_slots, current_slots, before_slots, after_slots;
-  uint64_t head_sum, current_sum;                     // excess of the neighbours' valences, around 8
-  uint64_t opposite, opposite_head;                   // the vertex across the edge before the first missing one / head
-  uint64_t predicted;                                 // valence that would make the dual face flat, in half steps
-  uint64_t degree_after;                              // degree behind the edge that leaves current
+  uint64_t head_sum, current_sum;    // excess of the neighbours' valences, around 8
+  uint64_t opposite, opposite_head;  // the vertex across the edge before the first missing one / head
+  uint64_t predicted;                // valence that would make the dual face flat, in half steps
+  uint64_t degree_after;             // degree behind the edge that leaves current
   History history;
 
   VertexFeatures(const VertexQuestion& q, const Gaps& gaps, Index usual_valence, const History& recent)
@@ -93,8 +93,21 @@ struct VertexFeatures {
 
 /// Contexts of a valence.
 enum class VertexContext {
-  kNothing, kPredicted, kHeadRing, kEnds, kSlots, kHistory, kSums, kPredictedSums, kBeyond, kCurrentRing, kDegrees,
-  kEndsAndSlots, kDegreeAfter, kSumsAndSlots, kPredictedSlots,
+  kNothing,
+  kPredicted,
+  kHeadRing,
+  kEnds,
+  kSlots,
+  kHistory,
+  kSums,
+  kPredictedSums,
+  kBeyond,
+  kCurrentRing,
+  kDegrees,
+  kEndsAndSlots,
+  kDegreeAfter,
+  kSumsAndSlots,
+  kPredictedSlots,
 };
 
 template <VertexContext context>
@@ -139,13 +152,13 @@ uint64_t keyOf(const VertexFeatures& f) {
 
 /// Around a face. It is attached from "near" to "far"; its part on the boundary runs from "head" to "tail".
 struct FaceFeatures {
-  uint64_t known, least;                              // edges known, least possible degree
-  uint64_t near, far, head, tail;                     // valences
+  uint64_t known, least;           // edges known, least possible degree
+  uint64_t near, far, head, tail;  // valences
   uint64_t near_slots, head_slots, tail_slots;
-  uint64_t behind, behind_tail, behind_head;          // degrees: across the first edge, and beyond both ends
-  uint64_t near_predicted, far_predicted;             // degrees that would make the vertices flat, in half steps
-  uint64_t dummies;                                   // which of near, far, head, tail touch a dummy face
-  uint64_t mean_sum;                                  // excess of the neighbours' valences at both ends
+  uint64_t behind, behind_tail, behind_head;  // degrees: across the first edge, and beyond both ends
+  uint64_t near_predicted, far_predicted;     // degrees that would make the vertices flat, in half steps
+  uint64_t dummies;                           // which of near, far, head, tail touch a dummy face
+  uint64_t mean_sum;                          // excess of the neighbours' valences at both ends
   History history;
 
   FaceFeatures(const FaceQuestion& q, const Gaps& gaps, const History& recent) : history(recent) {
@@ -172,8 +185,21 @@ struct FaceFeatures {
 
 /// Contexts of a degree.
 enum class FaceContext {
-  kNothing, kEnds, kNearAngle, kHistory, kAround, kEdge, kLeast, kAngles, kDegrees, kBehind, kSums, kSlots, kBoth,
-  kEdgeAndDegrees, kDummies,
+  kNothing,
+  kEnds,
+  kNearAngle,
+  kHistory,
+  kAround,
+  kEdge,
+  kLeast,
+  kAngles,
+  kDegrees,
+  kBehind,
+  kSums,
+  kSlots,
+  kBoth,
+  kEdgeAndDegrees,
+  kDummies,
 };
 
 template <FaceContext context>

@@ -11,9 +11,9 @@ namespace tutte {
 
 /// A topology that is another one's dual, and how it relates to it.
 struct DualTopology {
-  Topology topology;                  ///< faces: the primal umbrellas; umbrellas: the primal faces, dummies marked
-  std::vector<Index> primal_umbrella; ///< per dual face
-  std::vector<Index> primal_corner;   ///< per dual corner
+  Topology topology;                   ///< faces: the primal umbrellas; umbrellas: the primal faces, dummies marked
+  std::vector<Index> primal_umbrella;  ///< per dual face
+  std::vector<Index> primal_corner;    ///< per dual corner
 };
 
 /// The dual. O(n).

@@ -22,24 +22,24 @@ enum class TieRule : uint8_t { kOldestFirst = 0, kNewestFirst = 1 };
 struct alignas(64) Gap {
   Index umbrella = 0;
   Index free_slots = 0;
-  Index next = kNone;           ///< the gap at the far end of the leaving edge; in a free record, the next free one
+  Index next = kNone;  ///< the gap at the far end of the leaving edge; in a free record, the next free one
   Index prev = kNone;
-  Index behind = kNone;         ///< coded corner of the processed face whose edge runs back along the leaving edge;
-                                ///< kNone behind a dummy face
-  Index degree_behind = 0;      ///< that face's degree, 0 for a dummy face
-  Index valence = 0;            ///< of the umbrella
-  Index outside = kNone;        ///< encoder only: input corner whose edge is the leaving edge, in the face outside
+  Index behind = kNone;     ///< coded corner of the processed face whose edge runs back along the leaving edge;
+                            ///< kNone behind a dummy face
+  Index degree_behind = 0;  ///< that face's degree, 0 for a dummy face
+  Index valence = 0;        ///< of the umbrella
+  Index outside = kNone;    ///< encoder only: input corner whose edge is the leaving edge, in the face outside
   Index queue_next = kNone;
   Index queue_prev = kNone;
-  bool queued = false;          ///< in the boundary and not part of the current face
+  bool queued = false;  ///< in the boundary and not part of the current face
 
   // What the contexts want to know, gathered while the region grows.
-  bool dummy = false;           ///< a dummy face touches the umbrella
-  uint8_t opposite_next = 0;    ///< in the face behind: the valence (up to 14) of the vertex beyond the next gap's
-  uint8_t opposite_own = 0;     ///< in the face behind: the valence of the vertex beyond this gap's own
-  uint32_t neighbours = 0;      ///< edges of the umbrella seen by this gap
+  bool dummy = false;               ///< a dummy face touches the umbrella
+  uint8_t opposite_next = 0;        ///< in the face behind: the valence (up to 14) of the vertex beyond the next gap's
+  uint8_t opposite_own = 0;         ///< in the face behind: the valence of the vertex beyond this gap's own
+  uint32_t neighbours = 0;          ///< edges of the umbrella seen by this gap
   uint32_t neighbour_valences = 0;  ///< sum of the valences (each up to 200) at their far ends
-  uint32_t angle = 0;           ///< sum over the real faces around it of 1 - 2 / degree, in 1/65536
+  uint32_t angle = 0;               ///< sum over the real faces around it of 1 - 2 / degree, in 1/65536
 };
 
 /// Gap records by number, with a bucket queue by free slots: every operation is O(1). Numbers of released gaps are

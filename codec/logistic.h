@@ -18,7 +18,7 @@ struct Decay {
 inline constexpr Decay kDecay = [] {
   constexpr uint64_t kStep = 4584638084353230594u;      // exp(-1 / 170) * 2^62
   constexpr uint64_t kHalfStep = 4598142163217826931u;  // exp(-1 / 340) * 2^62
-  const auto times = [](uint64_t a, uint64_t b) {  // a * b / 2^62, for factors below 2^63
+  const auto times = [](uint64_t a, uint64_t b) {       // a * b / 2^62, for factors below 2^63
     const uint64_t a_high = a >> 31, a_low = a & 0x7FFFFFFF, b_high = b >> 31, b_low = b & 0x7FFFFFFF;
     return a_high * b_high + ((a_high * b_low + a_low * b_high) >> 31);
   };

@@ -54,7 +54,7 @@ struct Connectivity {
   std::vector<Index> vertices;      ///< per umbrella: its vertex (numbered by first appearance); empty: the identity
   std::vector<uint8_t> flipped;     ///< per face: 1 when the input has it the other way round; empty: none is
   Index umbrella_count = 0;
-  Index vertex_count = 0;           ///< isolated vertices included: they come last
+  Index vertex_count = 0;  ///< isolated vertices included: they come last
 
   Index vertexOf(Index corner) const {
     const Index umbrella = umbrellas[corner];

@@ -97,5 +97,4 @@ class MeshOracle {
   Index face_ = 0, corner_ = 0;
 };
 
-
 }  // namespace tutte

@@ -21,8 +21,8 @@ struct alignas(64) Line {
 
 /// Which weights and corrections serve a decision.
 struct Selectors {
-  int node = 0;      ///< 0 to kNodes - 1
-  int situation = 0; ///< 0 to kSituations - 1
+  int node = 0;       ///< 0 to kNodes - 1
+  int situation = 0;  ///< 0 to kSituations - 1
 };
 
 /// `kContexts` tables and, for more than one context, the weights. `kRich`: three weight sets and a final map instead
@@ -66,8 +66,10 @@ class Predictor {
       return bit;
     } else {
       for (int i = 0; i < kContexts; ++i) inputs_.lane[i] = line_[i]->slot[selectors.node].stretched();
-      if (match) inputs_.lane[kContexts] = match->stretched();
-      else inputs_.lane[kContexts] = 0;
+      if (match)
+        inputs_.lane[kContexts] = match->stretched();
+      else
+        inputs_.lane[kContexts] = 0;
       const bool bit = mixAndCode(port, selectors, match_length, value);
       for (int i = 0; i < kContexts; ++i) line_[i]->slot[selectors.node].update(bit);
       if (match) match->update(bit);

@@ -20,8 +20,12 @@ class WalkedDual {
 
   Index face(Index corner) const { return face_[corner]; }
   bool isDummy(Index corner) const { return dummy_[dual_.umbrellas[corner]]; }
-  Index next(Index corner) const { return corner + 1 == first_[face_[corner] + 1] ? first_[face_[corner]] : corner + 1; }
-  Index prev(Index corner) const { return corner == first_[face_[corner]] ? first_[face_[corner] + 1] - 1 : corner - 1; }
+  Index next(Index corner) const {
+    return corner + 1 == first_[face_[corner] + 1] ? first_[face_[corner]] : corner + 1;
+  }
+  Index prev(Index corner) const {
+    return corner == first_[face_[corner]] ? first_[face_[corner] + 1] - 1 : corner - 1;
+  }
 
   /// The next corner of the primal face, which is the next one around the dual umbrella.
   Index around(Index corner) const { return dual_.twins[prev(corner)]; }

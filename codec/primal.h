@@ -11,8 +11,8 @@ namespace tutte {
 /// What remains of a walk over a dual when it is turned back into the mesh.
 struct PrimalMesh {
   Connectivity connectivity;
-  std::vector<Index> dual_corner;     ///< per corner: the dual's
-  std::vector<uint8_t> on_boundary;   ///< per umbrella: a dummy face touches it
+  std::vector<Index> dual_corner;    ///< per corner: the dual's
+  std::vector<uint8_t> on_boundary;  ///< per umbrella: a dummy face touches it
 };
 
 /// Turns a walked dual back. `dummies` names the dual umbrellas that are dummy faces. Faces come in the order of the

@@ -12,18 +12,18 @@ namespace tutte {
 /// Why the codec refused its input. The numbers are part of the C ABI and never change.
 enum class Error : uint8_t {
   kNone = 0,
-  kTruncated = 1,          ///< the bytes end before the mesh does
-  kMalformed = 2,          ///< the bytes break a rule of the format
-  kUnsupportedVersion = 3, ///< another version of the format
-  kLimitExceeded = 4,      ///< more vertices, faces or corners than the caller's Limits allow
-  kIndexOutOfRange = 5,    ///< (encoding) a corner names a vertex that does not exist
-  kCountMismatch = 6,      ///< the sizes of two arrays contradict each other
-  kTooLarge = 7,           ///< (encoding) more than 2^30 corners
-  kChecksum = 8,           ///< a section's bytes do not match their checksum
-  kMissingSection = 9,     ///< a payload lacks a section that its counts require
-  kTrailingBytes = 10,     ///< bytes after the end of the last section
-  kOutOfMemory = 11,       ///< the system refused memory
-  kAttributes = 12,        ///< the attribute section is damaged or of an unknown kind
+  kTruncated = 1,           ///< the bytes end before the mesh does
+  kMalformed = 2,           ///< the bytes break a rule of the format
+  kUnsupportedVersion = 3,  ///< another version of the format
+  kLimitExceeded = 4,       ///< more vertices, faces or corners than the caller's Limits allow
+  kIndexOutOfRange = 5,     ///< (encoding) a corner names a vertex that does not exist
+  kCountMismatch = 6,       ///< the sizes of two arrays contradict each other
+  kTooLarge = 7,            ///< (encoding) more than 2^30 corners
+  kChecksum = 8,            ///< a section's bytes do not match their checksum
+  kMissingSection = 9,      ///< a payload lacks a section that its counts require
+  kTrailingBytes = 10,      ///< bytes after the end of the last section
+  kOutOfMemory = 11,        ///< the system refused memory
+  kAttributes = 12,         ///< the attribute section is damaged or of an unknown kind
 };
 
 /// A sentence for users, without a trailing full stop.

@@ -36,7 +36,12 @@ template <class Statistics, class Port, class Oracle>
 class Script {
  public:
   Script(const SectionHeader& header, Port& valences, Port& degrees, Oracle& oracle)
-      : header_(header), statistics_(header), log_(header.copies), valences_(valences), degrees_(degrees), oracle_(oracle) {}
+      : header_(header),
+        statistics_(header),
+        log_(header.copies),
+        valences_(valences),
+        degrees_(degrees),
+        oracle_(oracle) {}
 
   bool component() {
     if (!component_.code(valences_, oracle_.component())) return false;

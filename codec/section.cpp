@@ -14,8 +14,8 @@ std::vector<uint8_t> writeSection(const SectionHeader& header, const SectionStre
   writer.byte(static_cast<uint8_t>(header.uniform_degree | (header.closed ? kClosed : 0) |
                                    (header.tie == TieRule::kNewestFirst ? kNewestFirst : 0) |
                                    (header.repairs ? kRepairs : 0) | (header.copies ? kCopies : 0)));
-  writer.byte(static_cast<uint8_t>(static_cast<int>(header.profile) | (header.match ? kMatch : 0) | (header.dual ? kDual : 0) |
-                                   (header.table_bits - kLeastTableBits) << kTableShift));
+  writer.byte(static_cast<uint8_t>(static_cast<int>(header.profile) | (header.match ? kMatch : 0) |
+                                   (header.dual ? kDual : 0) | (header.table_bits - kLeastTableBits) << kTableShift));
   if (!header.degreesKnown()) writer.varint(static_cast<uint32_t>(streams.degrees.size()));
   writer.append(streams.degrees);
   writer.append(streams.valences);
@@ -41,8 +41,7 @@ Result<SectionStreams> readSection(std::span<const uint8_t> bytes, SectionHeader
   streams.valences = reader.take(reader.remaining());
   if (reader.error() != Error::kNone) return reader.error();
   const bool bad_degree = header.uniform_degree != 0 && header.uniform_degree < header.leastDegree();
-  if (statistics & kReserved || bad_degree ||
-      header.table_bits > mostTableBits(bytes.size())) {
+  if (statistics & kReserved || bad_degree || header.table_bits > mostTableBits(bytes.size())) {
     return Error::kMalformed;
   }
   return streams;

@@ -30,8 +30,9 @@ struct FastProfile {
 };
 
 struct DefaultProfile {
-  using Vertex = ContextList<VertexContext::kPredicted, VertexContext::kHeadRing, VertexContext::kNothing,
-                             VertexContext::kEnds, VertexContext::kSlots, VertexContext::kHistory, VertexContext::kSums>;
+  using Vertex =
+      ContextList<VertexContext::kPredicted, VertexContext::kHeadRing, VertexContext::kNothing, VertexContext::kEnds,
+                  VertexContext::kSlots, VertexContext::kHistory, VertexContext::kSums>;
   using Face = ContextList<FaceContext::kEnds, FaceContext::kNearAngle, FaceContext::kHistory, FaceContext::kAround,
                            FaceContext::kEdge, FaceContext::kLeast, FaceContext::kAngles>;
   static constexpr bool kRich = false;
@@ -95,7 +96,8 @@ class MixedStatistics {
     const VertexFeatures features(question, gaps, usual, history_);
     vertices_.enter(Profile::Vertex::keys(features));
     contradicted_ = false;
-    const int situation = static_cast<int>(std::min(face, Index{15}) * 4 + (question.missing > 1) * 2 + (question.index > 0));
+    const int situation =
+        static_cast<int>(std::min(face, Index{15}) * 4 + (question.missing > 1) * 2 + (question.index > 0));
     const bool seed = question.head == kNone;
     const auto decide = [&](int node, int step, Index asked, bool value) {
       // `asked` is what the decision asks about; the matched symbol answers it, if it can.
@@ -119,7 +121,8 @@ class MixedStatistics {
     if (degree_known && !may_be_dummy) return answer;
     const FaceFeatures features(question, gaps, history_);
     faces_.enter(Profile::Face::keys(features));
-    const int situation = static_cast<int>(features.behind * 3 + std::min<uint64_t>(features.known, 3) - (features.known > 0));
+    const int situation =
+        static_cast<int>(features.behind * 3 + std::min<uint64_t>(features.known, 3) - (features.known > 0));
     if (may_be_dummy) {
       answer.dummy = decide(port, faces_, {0, situation}, kAskDummy, truth.dummy);
       if (answer.dummy) {

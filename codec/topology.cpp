@@ -171,7 +171,8 @@ void closeHoles(Topology& topology) {
       topology.twin.push_back(open);
       topology.twin[open] = dummy;
       // The open edge that ends where this one starts: round the umbrella, away from the hole.
-      for (open = faces.prev(open); open != seed && topology.twin[open] != kNone && topology.twin[open] < real_corners;) {
+      for (open = faces.prev(open);
+           open != seed && topology.twin[open] != kNone && topology.twin[open] < real_corners;) {
         open = faces.prev(topology.twin[open]);
       }
     } while (topology.twin[open] == kNone);

@@ -26,15 +26,15 @@ inline std::vector<SurfaceNormals> surfaceNormals(const ValueGraph& graph, Place
     if (end - begin < 3) continue;
     Vector3 normal{};
     for (Index c = begin + 1; c + 1 < end; ++c) {
-      const Vector3 part = cross(places.between(graph.site(begin), graph.site(c)),
-                                 places.between(graph.site(begin), graph.site(c + 1)));
+      const Vector3 part =
+          cross(places.between(graph.site(begin), graph.site(c)), places.between(graph.site(begin), graph.site(c + 1)));
       normal = shortened({normal[0] + part[0], normal[1] + part[1], normal[2] + part[2]}, 60);
     }
     const Vector3 even = unit(normal), area = shortened(normal, 46);
     for (Index c = begin; c < end; ++c) {
       const Index site = graph.site(c);
-      const int64_t turn = angle(places.between(site, graph.site(graph.next(c))),
-                                 places.between(site, graph.site(graph.prev(c))));
+      const int64_t turn =
+          angle(places.between(site, graph.site(graph.next(c))), places.between(site, graph.site(graph.prev(c))));
       SurfaceNormals& sum = sums[site];
       for (int i = 0; i < 3; ++i) {
         sum[kEven][i] += even[i];
@@ -54,7 +54,8 @@ inline std::vector<SurfaceNormals> surfaceNormals(const ValueGraph& graph, Place
 class DirectionGuide {
  public:
   /// Without places (an empty span), only the neighbours count. `max` is twice the octahedron's centre.
-  DirectionGuide(const ValueGraph& graph, const std::vector<Node<2>>& nodes, std::span<const int32_t> places, int32_t max)
+  DirectionGuide(const ValueGraph& graph, const std::vector<Node<2>>& nodes, std::span<const int32_t> places,
+                 int32_t max)
       : graph_(graph), nodes_(nodes), states_(graph.siteCount()), centre_(max / 2) {
     if (places.empty()) return;
     const std::vector<SurfaceNormals> surface = surfaceNormals(graph, Places(places));
@@ -107,7 +108,7 @@ class DirectionGuide {
   struct State {
     std::array<std::array<int16_t, 3>, kWeightings> surface{};  ///< on the side on which the direction is
     std::array<int16_t, 3> direction{};
-    bool inward = false;                                        ///< the surface's normals were turned round
+    bool inward = false;  ///< the surface's normals were turned round
     std::array<uint32_t, kCandidates> errors{};
   };
 
@@ -124,7 +125,8 @@ class DirectionGuide {
     }
   }
 
-  void predict(const State& state, const Vector3& sum, const Vector3& deviation, int64_t count, const Vec<2>& fallback) {
+  void predict(const State& state, const Vector3& sum, const Vector3& deviation, int64_t count,
+               const Vec<2>& fallback) {
     bases_.fill(fallback);
     for (int k = 0; k < kWeightings; ++k) {
       const Vector3 normal = surfaceOf(state, k);

@@ -55,7 +55,8 @@ inline Vector3 unit(Vector3 v) {
 /// The angle between two vectors below 2^21, 0 to 2^14 for 0 to 180 degrees, to half a percent.
 inline int64_t angle(const Vector3& a, const Vector3& b) {
   const Vector3 product = shortened(cross(a, b), 30);
-  const int shift = std::max(0, static_cast<int>(std::bit_width(static_cast<uint64_t>(largestMagnitude(cross(a, b))))) - 30);
+  const int shift =
+      std::max(0, static_cast<int>(std::bit_width(static_cast<uint64_t>(largestMagnitude(cross(a, b))))) - 30);
   const int64_t sine = squareRoot(static_cast<uint64_t>(dot(product, product)));
   const int64_t cosine = dot(a, b) >> shift;
   const int64_t flat = cosine < 0 ? -cosine : cosine;

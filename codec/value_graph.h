@@ -51,7 +51,7 @@ class ValueGraph {
 
   Index site_count_;
   std::vector<Corner> corners_;
-  std::vector<Index> first_;   // the corners of site s are around_[first_[s]] ... around_[first_[s + 1] - 1]
+  std::vector<Index> first_;  // the corners of site s are around_[first_[s]] ... around_[first_[s + 1] - 1]
   std::vector<Index> around_;
 };
 

@@ -73,8 +73,10 @@ class TexcoordGuide {
     if (count_ == 0) return;
     average();
     const bool weak = stencil.member_count == 0;
-    if (weak || here_error <= stencil_error) adopt(stencil, weak);
-    else stencil.lean = here_base_;
+    if (weak || here_error <= stencil_error)
+      adopt(stencil, weak);
+    else
+      stencil.lean = here_base_;
   }
 
   void learn(Index site, const std::array<int32_t, 2>& value) {

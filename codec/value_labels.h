@@ -18,8 +18,12 @@ template <class Port>
 class LabelCoder {
  public:
   LabelCoder(Port& port, const ValueGraph& graph, uint32_t count)
-      : port_(port), graph_(graph), bits_(static_cast<int>(std::bit_width(count - 1))), count_(count),
-        labels_(graph.siteCount(), kNone), slots_(size_t{kInputs} << kTableBits) {
+      : port_(port),
+        graph_(graph),
+        bits_(static_cast<int>(std::bit_width(count - 1))),
+        count_(count),
+        labels_(graph.siteCount(), kNone),
+        slots_(size_t{kInputs} << kTableBits) {
     mixer_.fill(Mixer<kInputs>());
   }
 

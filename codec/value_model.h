@@ -79,9 +79,9 @@ class Mixer {
 inline constexpr int kMostInputs = 5;
 struct ResidualContext {
   std::array<uint32_t, kMostInputs> line;
-  int component = 0;       ///< 0 to 2
-  int expected = 0;        ///< the bit length that is expected: 0 to kLongest
-  int sign = 0;            ///< below kSigns
+  int component = 0;  ///< 0 to 2
+  int expected = 0;   ///< the bit length that is expected: 0 to kLongest
+  int sign = 0;       ///< below kSigns
 };
 
 inline constexpr int kLongest = 18;  // of expected lengths

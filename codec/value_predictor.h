@@ -20,8 +20,13 @@ template <class Port, int C, int kInputs, class Guide>
 class SitePredictor {
  public:
   SitePredictor(Port& port, const ValueGraph& graph, std::span<const int32_t> places, int32_t max, bool tangent)
-      : port_(port), nodes_(graph.siteCount()), stencil_(graph, nodes_), guide_(graph, nodes_, places, max),
-        residuals_(lines()), max_(max), tangent_(tangent) {
+      : port_(port),
+        nodes_(graph.siteCount()),
+        stencil_(graph, nodes_),
+        guide_(graph, nodes_, places, max),
+        residuals_(lines()),
+        max_(max),
+        tangent_(tangent) {
     picks_.fill(Chance(6160));
     tangents_.fill(2048);
     last_.fill(0);
@@ -160,7 +165,8 @@ class SitePredictor {
     if constexpr (C == 3) {
       if (!tangent_) return order;
       std::array<uint64_t, 3> size;
-      for (int i = 0; i < 3; ++i) size[i] = static_cast<uint64_t>(stencil_.normal[i] < 0 ? -stencil_.normal[i] : stencil_.normal[i]);
+      for (int i = 0; i < 3; ++i)
+        size[i] = static_cast<uint64_t>(stencil_.normal[i] < 0 ? -stencil_.normal[i] : stencil_.normal[i]);
       const auto sortPair = [&](int a, int b) {
         if (size[order[a]] > size[order[b]]) std::swap(order[a], order[b]);
       };
@@ -199,8 +205,9 @@ class SitePredictor {
 
   ResidualContext contextOf(int i, int rank, int64_t so_far, int64_t prediction) const {
     const int64_t near = near_error_[i], all = all_error_, spread = stencil_.spread[i];
-    int64_t estimate = rank == 0 ? (2 * all + near) / 3 : rank == 1 ? (all + near + 2 * so_far) >> 2
-                                                                    : (all + near + so_far) >> 2;
+    int64_t estimate = rank == 0   ? (2 * all + near) / 3
+                       : rank == 1 ? (all + near + 2 * so_far) >> 2
+                                   : (all + near + so_far) >> 2;
     if (C == 1) estimate = near;
     if (stencil_.member_count > 1) {
       estimate = (estimate + spread) >> 1;

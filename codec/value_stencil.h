@@ -18,7 +18,7 @@ struct Node {
   std::array<int32_t, C> value{};
   std::array<uint32_t, C> error{};  ///< how far the prediction was off, in 1/16
   bool known = false;
-  bool picked = false;              ///< a single parallelogram was picked for it
+  bool picked = false;  ///< a single parallelogram was picked for it
 };
 
 template <int C>
@@ -57,15 +57,15 @@ class Stencil {
   }
 
   Source source = Source::kLast;
-  int member_count = 0;                        ///< parallelograms, if `source` is one of the first two
+  int member_count = 0;  ///< parallelograms, if `source` is one of the first two
   std::array<Vec<C>, kMostMembers> members;
-  Vec<C> base;                                 ///< the prediction
-  Vec<C> spread;                               ///< how much the predictions disagree
-  Vec<C> lean;                                 ///< another prediction: the value is likelier on its side of the base
-  uint32_t neighbours = 0;                     ///< known ones
+  Vec<C> base;              ///< the prediction
+  Vec<C> spread;            ///< how much the predictions disagree
+  Vec<C> lean;              ///< another prediction: the value is likelier on its side of the base
+  uint32_t neighbours = 0;  ///< known ones
   uint32_t picked_neighbours = 0;
-  Vec<C> error_sum;                            ///< of the neighbours' errors
-  std::array<int64_t, 3> normal;               ///< of the surroundings, not of unit length; 0: unknown
+  Vec<C> error_sum;               ///< of the neighbours' errors
+  std::array<int64_t, 3> normal;  ///< of the surroundings, not of unit length; 0: unknown
 
  private:
   const Node<C>& node(Index corner) const { return nodes_[graph_.site(corner)]; }
@@ -159,7 +159,8 @@ class Stencil {
       for (int i = 0; i < 3; ++i) {
         const int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
         // Unsigned, because thousands of faces around one vertex may wrap round.
-        normal[i] = static_cast<int64_t>(static_cast<uint64_t>(normal[i]) + static_cast<uint64_t>(u[j] * w[k] - u[k] * w[j]));
+        normal[i] =
+            static_cast<int64_t>(static_cast<uint64_t>(normal[i]) + static_cast<uint64_t>(u[j] * w[k] - u[k] * w[j]));
       }
     }
   }
@@ -214,7 +215,8 @@ class Stencil {
         source = from;
         have_base = true;
       } else if (!have_spread) {
-        for (int i = 0; i < C; ++i) spread[i] = prediction[i] < base[i] ? base[i] - prediction[i] : prediction[i] - base[i];
+        for (int i = 0; i < C; ++i)
+          spread[i] = prediction[i] < base[i] ? base[i] - prediction[i] : prediction[i] - base[i];
         lean = prediction;
         have_spread = true;
       }

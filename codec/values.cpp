@@ -66,9 +66,8 @@ struct Run {
   Error code() {
     SitePredictor<Port, C, kInputs, Guide> predictor(port, sites.graph, sites.places, format.max,
                                                      format.kind == ValueKind::kPoints);
-    const Error error = everySite([&](Index site) {
-      predictor.code(site, std::span<int32_t, C>(&values[size_t{site} * C], size_t{C}));
-    });
+    const Error error = everySite(
+        [&](Index site) { predictor.code(site, std::span<int32_t, C>(&values[size_t{site} * C], size_t{C})); });
     if (error != Error::kNone) return error;
     return predictor.damaged() ? Error::kMalformed : Error::kNone;
   }
@@ -109,7 +108,8 @@ std::vector<int32_t> namesOf(std::span<const int32_t> values, int components, st
   return names;
 }
 
-bool encodeLabels(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, ByteWriter& out) {
+bool encodeLabels(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values,
+                  ByteWriter& out) {
   std::vector<int32_t> labels;
   const std::vector<int32_t> names = namesOf(values, format.components, labels);
   if (names.empty()) return false;
@@ -186,13 +186,15 @@ bool supports(const ValueSites& sites, const ValueFormat& format) {
   return false;
 }
 
-bool encodeValues(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, ByteWriter& out) {
+bool encodeValues(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values,
+                  ByteWriter& out) {
   if (!supports(sites, format) || values.empty()) return false;
   if (format.kind == ValueKind::kLabel) return encodeLabels(sites, format, values, out);
   std::vector<int32_t> scratch(values.begin(), values.end());
   ValueFormat coded = format;
   if (format.ranked) {
-    const size_t most = std::min({kMostRanks, static_cast<size_t>(format.max) / 2, size_t{sites.graph.siteCount()} / 2});
+    const size_t most =
+        std::min({kMostRanks, static_cast<size_t>(format.max) / 2, size_t{sites.graph.siteCount()} / 2});
     const std::optional<ValueRanks> ranks = findRanks(values, format.components, most);
     if (!ranks) return false;
     writeRanks(*ranks, out);

@@ -29,19 +29,19 @@ enum class ValueKind : uint8_t {
 
 /// What the values are, besides the numbers.
 struct ValueFormat {
-  int components = 3;              ///< 1 to 4
-  int32_t max = 0;                 ///< values are 0 to max, below 2^27
+  int components = 3;  ///< 1 to 4
+  int32_t max = 0;     ///< values are 0 to max, below 2^27
   ValueProfile profile = ValueProfile::kDefault;
   ValueKind kind = ValueKind::kPlain;
-  bool ranked = false;             ///< (kPlain, kPoints) each component is one of a list: their ranks are coded
+  bool ranked = false;  ///< (kPlain, kPoints) each component is one of a list: their ranks are coded
 };
 
 /// A mesh's sites, and in which order they are coded.
 struct ValueSites {
   const ValueGraph& graph;
   SiteSequence& order;
-  std::span<const int32_t> places;  ///< three numbers below 2^20 per site: where it is. kTexcoord needs them, kDirection
-                                    ///< is better with them, others do not look at them; may be empty
+  std::span<const int32_t> places;  ///< three numbers below 2^20 per site: where it is. kTexcoord needs them,
+                                    ///< kDirection is better with them, others do not look at them; may be empty
 };
 
 /// True when values of this format can be coded at these sites.

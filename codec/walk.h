@@ -40,14 +40,14 @@ struct FaceAnswer {
 /// What is known of a missing vertex of the current face.
 struct VertexQuestion {
   FaceAnswer face;
-  Index head = kNone;        ///< where the face's missing vertices end; kNone in the first face of a component
-  Index current = kNone;     ///< the vertex before this one; kNone for the first vertex of a component
-  Index before_tail = kNone; ///< the vertex before the first missing one's predecessor; kNone likewise
-  Index index = 0;           ///< missing vertices of the face that were coded before
-  Index known_vertices = 0;  ///< vertices of the face that are known by now
-  uint64_t valence_sum = 0;  ///< sum of their valences
-  int64_t angle = 0;         ///< sum over them of 1 - 2 / valence, in 1/65536
-  Index missing = 0;         ///< vertices of the face that are still missing, this one included
+  Index head = kNone;         ///< where the face's missing vertices end; kNone in the first face of a component
+  Index current = kNone;      ///< the vertex before this one; kNone for the first vertex of a component
+  Index before_tail = kNone;  ///< the vertex before the first missing one's predecessor; kNone likewise
+  Index index = 0;            ///< missing vertices of the face that were coded before
+  Index known_vertices = 0;   ///< vertices of the face that are known by now
+  uint64_t valence_sum = 0;   ///< sum of their valences
+  int64_t angle = 0;          ///< sum over them of 1 - 2 / valence, in 1/65536
+  Index missing = 0;          ///< vertices of the face that are still missing, this one included
 };
 
 /// A missing vertex. In the dual of a mesh with holes it may stand for a dummy face.

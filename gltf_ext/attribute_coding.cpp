@@ -9,8 +9,8 @@
 namespace tutte {
 namespace {
 
-constexpr int kMaxBits = 24;       // of kQuantised and kOctahedral: what a float holds
-constexpr int kMaxWordBits = 27;   // sums of a few still fit 32 bits
+constexpr int kMaxBits = 24;      // of kQuantised and kOctahedral: what a float holds
+constexpr int kMaxWordBits = 27;  // sums of a few still fit 32 bits
 constexpr uint32_t kFractionZero = 0x80000000u;
 constexpr uint32_t kLargestNumerator = 1u << 24;
 
@@ -173,8 +173,7 @@ bool valid(const AttributeCoding& coding, const Attribute& attribute) {
   const bool is_float = attribute.type == ComponentType::kFloat;
   switch (coding.kind) {
     case CodingKind::kConstant: return true;
-    case CodingKind::kQuantised:
-      return is_float && coding.bits >= 1 && coding.bits <= kMaxBits && finiteGrid(coding);
+    case CodingKind::kQuantised: return is_float && coding.bits >= 1 && coding.bits <= kMaxBits && finiteGrid(coding);
     case CodingKind::kOctahedral:
       return is_float && attribute.components == 3 && coding.bits >= 2 && coding.bits <= kMaxBits;
     case CodingKind::kOctahedralSigned:

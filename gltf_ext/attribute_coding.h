@@ -19,25 +19,25 @@ namespace tutte {
 
 /// The numbers are part of the format.
 enum class CodingKind : uint8_t {
-  kConstant = 0,         ///< all wedges have `constant`
-  kQuantised = 1,        ///< float(origin[c] + q * range / (2^bits - 1)), operations from the right
-  kOctahedral = 2,       ///< pointToVector() of two numbers (octahedron.h)
-  kOctahedralSigned = 3, ///< the same, and a fourth component of -1 or 1
-  kWords = 4,            ///< an order-preserving word per component (wordOf()), less `base`
-  kSplitWords = 5,       ///< words in two halves: upper 16 bits, lower 16 bits
-  kFractions = 6,        ///< float(k / denominator) for the integer k = q + base - 2^31
+  kConstant = 0,          ///< all wedges have `constant`
+  kQuantised = 1,         ///< float(origin[c] + q * range / (2^bits - 1)), operations from the right
+  kOctahedral = 2,        ///< pointToVector() of two numbers (octahedron.h)
+  kOctahedralSigned = 3,  ///< the same, and a fourth component of -1 or 1
+  kWords = 4,             ///< an order-preserving word per component (wordOf()), less `base`
+  kSplitWords = 5,        ///< words in two halves: upper 16 bits, lower 16 bits
+  kFractions = 6,         ///< float(k / denominator) for the integer k = q + base - 2^31
 };
 
 /// Everything that the values need besides the numbers themselves.
 struct AttributeCoding {
   CodingKind kind = CodingKind::kConstant;
-  int bits = 0;                          ///< kQuantised: 1 to 24; kOctahedral...: 2 to 24
-  std::array<float, 4> origin{};         ///< kQuantised: the least value, per component
-  float range = 0;                       ///< kQuantised: the largest extent of a component
-  uint8_t signs = 0;                     ///< kOctahedralSigned: 0 all -1, 1 all 1, 2 mixed
-  uint32_t base = 0;                     ///< kWords, kFractions
-  uint32_t denominator = 1;              ///< kFractions
-  std::vector<uint8_t> constant;         ///< kConstant: one value
+  int bits = 0;                   ///< kQuantised: 1 to 24; kOctahedral...: 2 to 24
+  std::array<float, 4> origin{};  ///< kQuantised: the least value, per component
+  float range = 0;                ///< kQuantised: the largest extent of a component
+  uint8_t signs = 0;              ///< kOctahedralSigned: 0 all -1, 1 all 1, 2 mixed
+  uint32_t base = 0;              ///< kWords, kFractions
+  uint32_t denominator = 1;       ///< kFractions
+  std::vector<uint8_t> constant;  ///< kConstant: one value
 };
 
 /// What a plane's numbers are like, which decides about their prediction.
@@ -53,7 +53,7 @@ enum class PlaneKind : uint8_t {
 /// Whole numbers in [0, max], `components` per wedge.
 struct Plane {
   PlaneKind kind = PlaneKind::kSmooth;
-  size_t attribute = 0;         ///< whose numbers
+  size_t attribute = 0;  ///< whose numbers
   uint8_t components = 1;
   int32_t max = 0;
   std::vector<int32_t> values;
@@ -69,7 +69,8 @@ int quantisationBits(const AttributeName& name, const PackOptions& options);
 /// - integers, JOINTS, WEIGHTS, attributes with 0 bits, and those that are not finite: without loss, by words or, if
 ///   all floats are fractions of 1, 255 or 65535, by these (also for the other floats, when that costs no more bits);
 /// - NORMAL of unit vectors (to 2^-bits): octahedral; otherwise quantised;
-/// - TANGENT of unit vectors with signs: octahedral with signs; otherwise without loss, as rounding would make it invalid;
+/// - TANGENT of unit vectors with signs: octahedral with signs; otherwise without loss, as rounding would make it
+/// invalid;
 /// - other floats: quantised.
 ///
 /// No component is off by more than half a step, range / (2^bits - 1) / 2, when quantised (and what rounding to float

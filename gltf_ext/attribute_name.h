@@ -24,10 +24,10 @@ enum class Semantic : uint8_t {
 /// "TEXCOORD_1@4" is the semantic kTexcoord, set 1, of morph target 4.
 struct AttributeName {
   Semantic semantic = Semantic::kCustom;
-  uint32_t set = 0;            ///< of TEXCOORD, COLOR, JOINTS, WEIGHTS
-  bool is_target = false;      ///< values are a morph target's displacements
+  uint32_t set = 0;        ///< of TEXCOORD, COLOR, JOINTS, WEIGHTS
+  bool is_target = false;  ///< values are a morph target's displacements
   uint32_t target = 0;
-  std::string custom;          ///< of kCustom: the name as it is, without the target
+  std::string custom;  ///< of kCustom: the name as it is, without the target
 
   bool operator==(const AttributeName&) const = default;
 };

@@ -29,9 +29,9 @@ PlaneKind kindOf(const Attribute& attribute, const AttributeCoding& coding, size
   if (name.semantic == Semantic::kTexcoord && components == 2 && coding.bits <= kMaxTexcoordBits) {
     return PlaneKind::kTexcoord;
   }
-  const bool label = coding.kind != CodingKind::kQuantised &&
-                     (name.semantic == Semantic::kCustom || name.semantic == Semantic::kJoints ||
-                      name.semantic == Semantic::kWeights);
+  const bool label =
+      coding.kind != CodingKind::kQuantised &&
+      (name.semantic == Semantic::kCustom || name.semantic == Semantic::kJoints || name.semantic == Semantic::kWeights);
   return label ? PlaneKind::kLabel : PlaneKind::kSmooth;
 }
 
@@ -138,8 +138,7 @@ std::vector<Plane> planesOf(const Attribute& attribute, const AttributeCoding& c
   const int components = attribute.components;
   switch (coding.kind) {
     case CodingKind::kConstant: return {};
-    case CodingKind::kOctahedral:
-      return {plane(PlaneKind::kNormal, index, 2, 2 * octahedronCentre(coding.bits))};
+    case CodingKind::kOctahedral: return {plane(PlaneKind::kNormal, index, 2, 2 * octahedronCentre(coding.bits))};
     case CodingKind::kOctahedralSigned: {
       std::vector<Plane> planes{plane(PlaneKind::kDirection, index, 2, 2 * octahedronCentre(coding.bits))};
       if (coding.signs == kSignsMixed) planes.push_back(plane(PlaneKind::kLabel, index, 1, 1));

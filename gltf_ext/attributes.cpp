@@ -25,7 +25,7 @@ struct Head {
   uint8_t coder = kDracoCoder;
   std::vector<Attribute> attributes;  ///< without data
   std::vector<AttributeCoding> codings;
-  std::vector<Plane> planes;          ///< of all attributes, without values
+  std::vector<Plane> planes;  ///< of all attributes, without values
 
   std::span<Plane> planesOf(size_t attribute) {
     const auto [first, last] = std::ranges::equal_range(planes, attribute, {}, &Plane::attribute);
@@ -37,7 +37,8 @@ Failure damaged(const char* what) { return {FailureKind::kInvalid, "", what}; }
 
 void addPlanes(Head& head) {
   for (size_t i = 0; i < head.attributes.size(); ++i) {
-    for (Plane& plane : tutte::planesOf(head.attributes[i], head.codings[i], i)) head.planes.push_back(std::move(plane));
+    for (Plane& plane : tutte::planesOf(head.attributes[i], head.codings[i], i))
+      head.planes.push_back(std::move(plane));
   }
 }
 
@@ -88,13 +89,14 @@ Outcome<Done> checkAttribute(const Attribute& attribute, Index wedge_count) {
   if (attribute.data.size() != size_t{wedge_count} * attribute.stride()) {
     return Failure{FailureKind::kInvalid, attribute.name, "the attribute has not one value per vertex"};
   }
-  if (attribute.name.size() > 1024) return Failure{FailureKind::kUnsupported, "", "an attribute name exceeds 1024 bytes"};
+  if (attribute.name.size() > 1024)
+    return Failure{FailureKind::kUnsupported, "", "an attribute name exceeds 1024 bytes"};
   return Done{};
 }
 
 Outcome<Done> checkOptions(const PackOptions& options) {
-  for (const int bits : {options.position_bits, options.normal_bits, options.texcoord_bits, options.color_bits,
-                         options.generic_bits}) {
+  for (const int bits :
+       {options.position_bits, options.normal_bits, options.texcoord_bits, options.color_bits, options.generic_bits}) {
     if (bits < 0 || bits > kMaxBits) return Failure{FailureKind::kUsage, "", "quantisation bits must be 0 to 24"};
   }
   if (options.normal_bits == 1) return Failure{FailureKind::kUsage, "", "normals need 2 bits or more (or 0)"};
@@ -151,8 +153,8 @@ Outcome<std::vector<uint8_t>> encode(const AttributeTopology& topology, std::spa
 
 }  // namespace
 
-Outcome<std::vector<uint8_t>> encodeAttributes(const AttributeTopology& topology,
-                                               std::span<const Attribute> attributes, const PackOptions& options) {
+Outcome<std::vector<uint8_t>> encodeAttributes(const AttributeTopology& topology, std::span<const Attribute> attributes,
+                                               const PackOptions& options) {
   if (const auto checked = checkOptions(options); !checked) return checked.error();
   if (attributes.size() > kMaxAttributes) return Failure{FailureKind::kUnsupported, "", "more than 4096 attributes"};
   for (const Attribute& attribute : attributes) {

@@ -16,16 +16,16 @@ namespace tutte {
 /// What both sides know before attributes are coded.
 struct AttributeTopology {
   const Connectivity& connectivity;
-  std::span<const Index> wedges;    ///< per coded corner (order of connectivity.umbrellas): its wedge
-  Index wedge_count = 0;            ///< wedges that no corner uses come last
+  std::span<const Index> wedges;  ///< per coded corner (order of connectivity.umbrellas): its wedge
+  Index wedge_count = 0;          ///< wedges that no corner uses come last
   /// Per attribute, per coded corner: 1 when the edge from that corner to the next of its face is a seam of the
   /// attribute (its values differ at an end). An empty span: no seams. Attribute 0 is POSITION and has none.
   std::vector<std::span<const uint8_t>> seams;
 };
 
 /// Codes the attributes (given in coded wedge order). The bytes decode with decodeAttributes() over an equal topology.
-Outcome<std::vector<uint8_t>> encodeAttributes(const AttributeTopology& topology,
-                                               std::span<const Attribute> attributes, const PackOptions& options);
+Outcome<std::vector<uint8_t>> encodeAttributes(const AttributeTopology& topology, std::span<const Attribute> attributes,
+                                               const PackOptions& options);
 
 /// The attribute descriptions (everything but `data`) at the head of the section, so that seams can be read before
 /// values. Any bytes may be passed; at most 4096 attributes.

@@ -13,8 +13,10 @@ namespace tutte {
 
 /// How polygons are written beside the triangles.
 enum class PolygonOutput {
-  kAuto,  ///< as the input has them; FB_ngon_encoding for imported polygons if every one is a fan, else EXT_mesh_polygon
-  kFb,    ///< FB_ngon_encoding; primitives with a polygon that is no fan get EXT_mesh_polygon all the same, with a warning
+  kAuto,  ///< as the input has them; FB_ngon_encoding for imported polygons if every one is a fan, else
+          ///< EXT_mesh_polygon
+  kFb,    ///< FB_ngon_encoding; primitives with a polygon that is no fan get EXT_mesh_polygon all the same, with a
+          ///< warning
   kExt,   ///< EXT_mesh_polygon
   kBoth,  ///< both, where possible
 };
@@ -22,24 +24,24 @@ enum class PolygonOutput {
 struct CompressOptions {
   PackOptions pack;
   PolygonOutput polygons = PolygonOutput::kAuto;
-  bool fallback = false;                ///< keep the decoded bytes too, so that loaders without the extension can read it
-  std::set<std::string> attributes;     ///< keep only these (POSITION always); empty: keep all
+  bool fallback = false;             ///< keep the decoded bytes too, so that loaders without the extension can read it
+  std::set<std::string> attributes;  ///< keep only these (POSITION always); empty: keep all
 };
 
 /// What one payload holds and what it costs.
 struct PayloadReport {
-  std::string name;                     ///< of the (first) mesh
-  size_t vertices = 0;                  ///< welded vertices
-  size_t wedges = 0;                    ///< glTF vertices
+  std::string name;     ///< of the (first) mesh
+  size_t vertices = 0;  ///< welded vertices
+  size_t wedges = 0;    ///< glTF vertices
   size_t faces = 0;
   size_t corners = 0;
-  size_t primitives = 0;                ///< face groups
+  size_t primitives = 0;  ///< face groups
   Packed packed;
 };
 
 /// What compress() did.
 struct CompressReport {
-  std::vector<Failure> warnings;        ///< what was left as it was and why, with JSON pointers
+  std::vector<Failure> warnings;  ///< what was left as it was and why, with JSON pointers
   std::vector<PayloadReport> payloads;
 };
 

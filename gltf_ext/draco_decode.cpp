@@ -85,7 +85,8 @@ class PlaneDecoder : public draco::SequentialIntegerAttributeDecoder {
     if (method == draco::PREDICTION_DIFFERENCE) return deltaScheme(plane, attribute());
     const ValueLayout& layout = session_.layout(attribute_id());
     const bool parent = session_.hasParent();
-    if (!layout.seams) return schemeOver(session_.triangles().table, plane, method, parent, layout.data, mesh_, attribute());
+    if (!layout.seams)
+      return schemeOver(session_.triangles().table, plane, method, parent, layout.data, mesh_, attribute());
     return schemeOver(*layout.seams, plane, method, parent, layout.data, mesh_, attribute());
   }
 

@@ -33,7 +33,7 @@ class PlaneEncoder : public draco::SequentialIntegerAttributeEncoder {
     if (plane_.octahedral()) {
       using Transform = draco::PredictionSchemeNormalOctahedronCanonicalizedEncodingTransform<int32_t>;
       return draco::CreatePredictionSchemeForEncoder<int32_t, Transform>(method_, attribute_id(), encoder(),
-                                                                        Transform(plane_.max + 1));
+                                                                         Transform(plane_.max + 1));
     }
     using Transform = draco::PredictionSchemeWrapEncodingTransform<int32_t>;
     return draco::CreatePredictionSchemeForEncoder<int32_t, Transform>(method_, attribute_id(), encoder());

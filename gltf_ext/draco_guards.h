@@ -18,7 +18,8 @@ class GuardedWrap : public draco::PredictionSchemeWrapDecodingTransform<int32_t>
   explicit GuardedWrap(int32_t max = 0) : max_(max) {}
 
   bool DecodeTransformData(draco::DecoderBuffer* buffer) {
-    return PredictionSchemeWrapDecodingTransform::DecodeTransformData(buffer) && min_value() >= 0 && max_value() <= max_;
+    return PredictionSchemeWrapDecodingTransform::DecodeTransformData(buffer) && min_value() >= 0 &&
+           max_value() <= max_;
   }
 
   void ComputeOriginalValue(const int32_t* predicted, const int32_t* correction, int32_t* out) const {
@@ -53,8 +54,7 @@ class GuardedOctahedron : public draco::PredictionSchemeNormalOctahedronCanonica
 
 /// Draco's texture coordinate prediction; there is at most one orientation per value.
 template <class MeshData>
-class GuardedTexcoords
-    : public draco::MeshPredictionSchemeTexCoordsPortableDecoder<int32_t, GuardedWrap, MeshData> {
+class GuardedTexcoords : public draco::MeshPredictionSchemeTexCoordsPortableDecoder<int32_t, GuardedWrap, MeshData> {
   using Base = draco::MeshPredictionSchemeTexCoordsPortableDecoder<int32_t, GuardedWrap, MeshData>;
 
  public:

@@ -7,8 +7,8 @@ bool DracoSession::prepare(draco::Mesh& mesh) {
   for (size_t id = 0; id < planes_.size(); ++id) {
     const Plane& plane = planes_[id];
     const bool has_seams = plane.attribute < topology_.seams.size();
-    plane_layouts_[id] = layouts_.get(has_seams ? topology_.seams[plane.attribute] : std::span<const uint8_t>{},
-                                      orderOf(plane.kind));
+    plane_layouts_[id] =
+        layouts_.get(has_seams ? topology_.seams[plane.attribute] : std::span<const uint8_t>{}, orderOf(plane.kind));
     if (!plane_layouts_[id]) return false;
     draco::GeometryAttribute description;
     description.Init(dracoType(plane.kind), nullptr, plane.components, draco::DT_INT32, false,

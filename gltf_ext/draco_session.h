@@ -37,7 +37,11 @@ inline draco::GeometryAttribute::Type dracoType(PlaneKind kind) {
 class DracoSession {
  public:
   DracoSession(const AttributeTopology& topology, const TriangleTable& triangles, std::span<const Plane> planes)
-      : topology_(topology), triangles_(triangles), planes_(planes), layouts_(triangles), plane_layouts_(planes.size()) {}
+      : topology_(topology),
+        triangles_(triangles),
+        planes_(planes),
+        layouts_(triangles),
+        plane_layouts_(planes.size()) {}
 
   /// Finds every plane's layout and describes the attributes. False when the seams do not fit.
   bool prepare(draco::Mesh& mesh);

@@ -46,7 +46,7 @@ struct CompressedView {
   uint64_t byte_stride = 0;  ///< bytes per element: 1, 2 or 4 for integers; a multiple of 4 for attributes
   uint64_t count = 0;        ///< elements
   Mode mode = Mode::kTriangles;
-  uint64_t attribute = 0;    ///< with kAttribute: which one, in the payload's order
+  uint64_t attribute = 0;  ///< with kAttribute: which one, in the payload's order
 
   bool operator==(const CompressedView&) const = default;
 };

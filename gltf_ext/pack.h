@@ -23,7 +23,7 @@ enum class AttributeCoder : uint8_t {
 /// WEIGHTS are always coded without loss.
 struct PackOptions {
   int position_bits = 14;
-  int normal_bits = 10;   ///< normals and tangents
+  int normal_bits = 10;  ///< normals and tangents
   int texcoord_bits = 12;
   int color_bits = 8;
   int generic_bits = 12;  ///< custom float attributes and morph-target deltas of anything but positions
@@ -45,13 +45,14 @@ struct Packed {
   uint32_t valence_bytes = 0;
   uint32_t degree_bytes = 0;
   uint32_t seam_bytes = 0;
-  uint32_t attribute_bytes = 0;     ///< seams and attribute section
+  uint32_t attribute_bytes = 0;  ///< seams and attribute section
   double connectivity_encode_seconds = 0;
 };
 
-/// Codes a mesh that obeys the rules of gltf_ext/mesh_rules.h. A mesh without triangles gets those of triangulate(): fans
-/// from the first coded corner where these are right, for they cost nothing. Also refused: a wedge that belongs to two
-/// vertices, wedges of one vertex with different positions, and an unequal number of isolated vertices and unused wedges.
+/// Codes a mesh that obeys the rules of gltf_ext/mesh_rules.h. A mesh without triangles gets those of triangulate():
+/// fans from the first coded corner where these are right, for they cost nothing. Also refused: a wedge that belongs to
+/// two vertices, wedges of one vertex with different positions, and an unequal number of isolated vertices and unused
+/// wedges.
 Outcome<Packed> pack(const PolygonMesh& mesh, const PackOptions& options = {});
 
 /// The mesh that pack() stored, in coded order; its triangulation is always given. Any bytes may be passed.

@@ -33,11 +33,11 @@ constexpr uint32_t sizeOf(ComponentType type) {
 
 /// One attribute of all wedges, tightly packed: `components` values of type `type` per wedge.
 struct Attribute {
-  std::string name;                  ///< POSITION, NORMAL, TEXCOORD_0, _MINE ...; a morph target's are "POSITION@0"
-  uint8_t components = 3;            ///< 1 to 4 (MAT types are not attributes)
+  std::string name;        ///< POSITION, NORMAL, TEXCOORD_0, _MINE ...; a morph target's are "POSITION@0"
+  uint8_t components = 3;  ///< 1 to 4 (MAT types are not attributes)
   ComponentType type = ComponentType::kFloat;
-  bool normalized = false;           ///< integers that stand for 0..1 or -1..1
-  std::vector<uint8_t> data;         ///< wedge_count * components * sizeOf(type) bytes, little-endian
+  bool normalized = false;    ///< integers that stand for 0..1 or -1..1
+  std::vector<uint8_t> data;  ///< wedge_count * components * sizeOf(type) bytes, little-endian
 
   uint32_t stride() const { return components * sizeOf(type); }
 };
@@ -48,12 +48,12 @@ struct Attribute {
 /// seam of texture coordinates or normals has several wedges. All wedges of a vertex share its POSITION.
 struct PolygonMesh {
   Polygons polygons;
-  std::vector<Index> wedges;         ///< per corner: its wedge; empty: the corner's vertex is its wedge
-  Index wedge_count = 0;             ///< unused wedges are isolated vertices: vertex and wedge both come last, in order
-  std::vector<Index> groups;         ///< per face: its group (the glTF primitive); empty: all 0
+  std::vector<Index> wedges;  ///< per corner: its wedge; empty: the corner's vertex is its wedge
+  Index wedge_count = 0;      ///< unused wedges are isolated vertices: vertex and wedge both come last, in order
+  std::vector<Index> groups;  ///< per face: its group (the glTF primitive); empty: all 0
   Index group_count = 1;
-  std::vector<Index> ring_owners;    ///< per face: kNone for a polygon; for an interior ring (a hole in a polygon, which
-                                     ///< EXT_mesh_polygon allows) the face that is its exterior ring; empty: all kNone
+  std::vector<Index> ring_owners;  ///< per face: kNone for a polygon; for an interior ring (a hole in a polygon, which
+                                   ///< EXT_mesh_polygon allows) the face that is its exterior ring; empty: all kNone
   Triangulation triangulation;
   std::vector<Attribute> attributes;
 

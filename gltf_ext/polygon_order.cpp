@@ -106,9 +106,9 @@ class Grower {
   }
 
   const Connectivity& mesh_;
-  std::vector<Index> first_, face_of_;            // per face, per corner
-  std::vector<Index> unknown_, unknown_xor_;      // per face: how many corners are unknown, and all of them by xor
-  std::vector<Index> ring_start_, ring_faces_;    // per umbrella: the faces round it
+  std::vector<Index> first_, face_of_;          // per face, per corner
+  std::vector<Index> unknown_, unknown_xor_;    // per face: how many corners are unknown, and all of them by xor
+  std::vector<Index> ring_start_, ring_faces_;  // per umbrella: the faces round it
   std::vector<bool> taken_, known_, met_;
   std::array<std::vector<Index>, kRanks> waiting_;
   PolygonOrder order_;

@@ -32,9 +32,9 @@ struct SceneMesh {
 /// One place in the scene.
 struct SceneNode {
   std::string name;
-  std::vector<Index> meshes;         ///< indices into Scene::meshes; one node may show several
-  Matrix matrix = kIdentity;         ///< relative to the parent node
-  std::vector<Index> children;       ///< indices into Scene::nodes; a node has one parent at most
+  std::vector<Index> meshes;    ///< indices into Scene::meshes; one node may show several
+  Matrix matrix = kIdentity;    ///< relative to the parent node
+  std::vector<Index> children;  ///< indices into Scene::nodes; a node has one parent at most
 };
 
 /// Meshes and where they stand. Without nodes, every mesh stands at the origin.

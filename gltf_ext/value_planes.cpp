@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-
 namespace tutte {
 namespace {
 
@@ -71,7 +70,8 @@ bool consistent(const AttributeTopology& topology) {
   for (size_t c = 0; c < corners; ++c) {
     const bool twin_exists = mesh.twins[c] == kNone || mesh.twins[c] < corners;
     if (!twin_exists || mesh.umbrellas[c] >= mesh.umbrella_count) return false;
-    if (mesh.vertexOf(static_cast<Index>(c)) >= mesh.vertex_count || topology.wedges[c] >= topology.wedge_count) return false;
+    if (mesh.vertexOf(static_cast<Index>(c)) >= mesh.vertex_count || topology.wedges[c] >= topology.wedge_count)
+      return false;
   }
   return std::ranges::all_of(topology.seams, [&](auto seams) { return seams.empty() || seams.size() == corners; });
 }

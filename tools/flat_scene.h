@@ -38,7 +38,8 @@ struct FlatScene {
 };
 
 /// `bits` tells how coarse the other scene may be; tolerances are half a step, plus what rounding to float costs where
-/// anything is quantised, moved, or turned upside down. 0 bits: no tolerance but this. `tolerance` >= 0 replaces that of positions.
+/// anything is quantised, moved, or turned upside down. 0 bits: no tolerance but this. `tolerance` >= 0 replaces that
+/// of positions.
 FlatScene flatten(const Scene& scene, const PackOptions& bits, double tolerance = -1);
 
 }  // namespace tutte

@@ -22,7 +22,8 @@ int run(int argc, char** argv) {
       "Exit codes: 0 done, 1 wrong usage, 2 invalid input, 3 unsupported input, 4 verification failed,\n"
       "5 reading or writing failed.");
   Action action;
-  for (const auto add : {addEncode, addDecode, addInspect, addValidate, addVerify, addBench, addTrace}) add(app, action);
+  for (const auto add : {addEncode, addDecode, addInspect, addValidate, addVerify, addBench, addTrace})
+    add(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help, --version

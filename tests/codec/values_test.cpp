@@ -1,12 +1,13 @@
 // Attribute values over meshes of every kind: exact round trips, bytes that stay the same, and damaged bytes.
 
+#include "codec/values.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
 
 #include "codec/bytes.h"
 #include "codec/encode.h"
-#include "codec/values.h"
 #include "tests/shapes/shapes.h"
 
 namespace tutte {
@@ -19,7 +20,8 @@ struct Sites {
   explicit Sites(const Encoded& encoded)
       : graph(encoded.connectivity, encoded.connectivity.vertex_count,
               [&](Index corner) { return encoded.connectivity.vertexOf(corner); }),
-        order(graph), vertex_order(encoded.vertex_order) {}
+        order(graph),
+        vertex_order(encoded.vertex_order) {}
   Sites(const Sites&) = delete;
 
   ValueGraph graph;
@@ -72,7 +74,8 @@ TEST(Values, RoundTrips) {
     for (const ValueProfile profile : kProfiles) {
       for (int components = 1; components <= 4; ++components) {
         for (const int32_t max : {0, 1, 255, 16383, (1 << 27) - 1}) {
-          const ValueFormat format{components, max, profile, components == 3 && max < 1 << 20 ? ValueKind::kPoints : ValueKind::kPlain};
+          const ValueFormat format{components, max, profile,
+                                   components == 3 && max < 1 << 20 ? ValueKind::kPoints : ValueKind::kPlain};
           const std::vector<int32_t> values = someValues(sites, components, max, static_cast<uint64_t>(max));
           if (values.empty()) continue;
           const std::vector<uint8_t> bytes = bytesOf(sites, format, values);
@@ -178,7 +181,8 @@ Guided guided(const Sites& sites, ValueKind kind, ValueProfile profile) {
 }
 
 TEST(Values, GuidedRoundTripsAndDamage) {
-  for (const shapes::Shape& shape : {shapes::quadGrid(20, 20), shapes::triangleGrid(20, 20), shapes::soup(441, 300, 3, 6, 5)}) {
+  for (const shapes::Shape& shape :
+       {shapes::quadGrid(20, 20), shapes::triangleGrid(20, 20), shapes::soup(441, 300, 3, 6, 5)}) {
     const Sites sites = vertexSites(shape.mesh);
     for (const ValueProfile profile : kProfiles) {
       for (const ValueKind kind : {ValueKind::kTexcoord, ValueKind::kDirection}) {
@@ -193,7 +197,9 @@ TEST(Values, GuidedRoundTripsAndDamage) {
         for (size_t bit = 0; bit < 8 * bytes.size(); bit += 31) {
           bytes[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
           const auto damaged = decodeValues(where, given.format, bytes);
-          if (damaged) { ASSERT_EQ(damaged->size(), given.values.size()); }
+          if (damaged) {
+            ASSERT_EQ(damaged->size(), given.values.size());
+          }
           bytes[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
         }
       }
@@ -212,8 +218,9 @@ TEST(Values, ListsRoundTripsAndDamage) {
         for (size_t i = 0; i < size_t{sites.graph.siteCount()} * components; ++i) {
           values.push_back(static_cast<int32_t>(random.below(3)) * (max / 2));
         }
-        for (const ValueFormat& format : {ValueFormat{components, max, ValueProfile::kDefault, ValueKind::kLabel},
-                                          ValueFormat{components, max, ValueProfile::kDefault, ValueKind::kPlain, true}}) {
+        for (const ValueFormat& format :
+             {ValueFormat{components, max, ValueProfile::kDefault, ValueKind::kLabel},
+              ValueFormat{components, max, ValueProfile::kDefault, ValueKind::kPlain, true}}) {
           const ValueSites where{sites.graph, sites.order, {}};
           ByteWriter out;
           if (!encodeValues(where, format, values, out)) continue;

@@ -18,7 +18,8 @@ float wave(Index wedge, int c) { return static_cast<float>(std::sin(0.05 * wedge
 
 class HostileAttributes : public testing::TestWithParam<AttributeCoder> {
  protected:
-  HostileAttributes() : shape_(shapes::mergeFaces(shapes::randomTriangulation(24, 1), 8, 2)), mesh_(codeMesh(shape_, true)) {
+  HostileAttributes()
+      : shape_(shapes::mergeFaces(shapes::randomTriangulation(24, 1), 8, 2)), mesh_(codeMesh(shape_, true)) {
     const Index count = mesh_.wedgeCount();
     attributes_.push_back(positionsOf(mesh_, shape_));
     attributes_.push_back(makeFloats("NORMAL", 3, count, [](Index w, int c) {
@@ -86,7 +87,8 @@ TEST_P(HostileAttributes, MutationsAreSurvived) {
   for (int round = 0; round < 3000; ++round) {
     Bytes bytes = original;
     for (Index i = random.below(6) + 1; i > 0; --i) {
-      bytes[random.below(static_cast<Index>(bytes.size()))] = static_cast<uint8_t>(random.below(4) ? random.next() : 0xFF);
+      bytes[random.below(static_cast<Index>(bytes.size()))] =
+          static_cast<uint8_t>(random.below(4) ? random.next() : 0xFF);
     }
     refused(topology, bytes);
   }

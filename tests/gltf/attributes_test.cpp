@@ -197,12 +197,14 @@ TEST_F(OneAttribute, WhatIsNotFiniteIsExact) {
 
 TEST_F(OneAttribute, WeightsAreExact) {
   expectExact(makeFloats("WEIGHTS_0", 4, count(), [](Index w, int c) { return c == 3 ? 0.0 : 1.0 / (1 + w % 5 + c); }));
-  expectExact(makeFloats("WEIGHTS_1", 4, count(), [](Index w, int c) { return static_cast<float>(w * (c + 1) % 256) / 255.f; }));
+  expectExact(makeFloats("WEIGHTS_1", 4, count(),
+                         [](Index w, int c) { return static_cast<float>(w * (c + 1) % 256) / 255.f; }));
 }
 
 TEST_F(OneAttribute, WholeNumbersAreExact) {
   expectExact(makeFloats("_FEATURE_ID_0", 1, count(), [](Index w, int) { return static_cast<float>(w / 9); }));
-  expectExact(makeFloats("_SIGNED", 2, count(), [](Index w, int c) { return static_cast<float>(int(w % 11) - 5 * c); }));
+  expectExact(
+      makeFloats("_SIGNED", 2, count(), [](Index w, int c) { return static_cast<float>(int(w % 11) - 5 * c); }));
 }
 
 TEST_F(OneAttribute, FloatsStayWithinTheirGrid) {

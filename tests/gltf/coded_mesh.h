@@ -17,9 +17,9 @@ namespace tutte {
 /// `vertex`: of each wedge, in coded order; `topology()` finds the seams of any attributes.
 struct CodedMesh {
   Connectivity connectivity;
-  std::vector<Index> wedges;                  ///< per coded corner
-  std::vector<Index> vertex;                  ///< per wedge: the shape's vertex
-  std::vector<std::vector<uint8_t>> seams;    ///< filled by topology()
+  std::vector<Index> wedges;                ///< per coded corner
+  std::vector<Index> vertex;                ///< per wedge: the shape's vertex
+  std::vector<std::vector<uint8_t>> seams;  ///< filled by topology()
 
   Index wedgeCount() const { return static_cast<Index>(vertex.size()); }
 
