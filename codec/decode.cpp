@@ -1,5 +1,7 @@
 #include "codec/decode.h"
 
+#include <numeric>
+
 #include "codec/decode_section.h"
 
 namespace tutte {
@@ -10,8 +12,12 @@ Result<Connectivity> decode(std::span<const uint8_t> bytes, const Limits& limits
 }
 
 Polygons polygonsOf(const Connectivity& mesh, std::vector<Index>* corner_of) {
-  Polygons polygons{mesh.face_degrees, std::vector<Index>(mesh.umbrellas.size()), mesh.vertex_count};
   if (corner_of) corner_of->resize(mesh.umbrellas.size());
+  if (mesh.flipped.empty() && mesh.vertices.empty()) {  // most meshes: coded corners are the polygons' own
+    if (corner_of) std::iota(corner_of->begin(), corner_of->end(), 0);
+    return {mesh.face_degrees, mesh.umbrellas, mesh.vertex_count};
+  }
+  Polygons polygons{mesh.face_degrees, std::vector<Index>(mesh.umbrellas.size()), mesh.vertex_count};
   Index first = 0;
   for (Index f = 0; f < mesh.face_degrees.size(); ++f) {
     const Index degree = mesh.face_degrees[f];

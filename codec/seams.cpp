@@ -141,8 +141,10 @@ bool wedgesAreVertices(const Connectivity& mesh, std::span<const Index> wedges) 
 Seams withoutSeams(const Connectivity& mesh, Index attribute_count) {
   Seams seams;
   seams.wedge_count = mesh.vertex_count;
-  seams.wedges.resize(mesh.umbrellas.size());
-  for (Index corner = 0; corner < seams.wedges.size(); ++corner) seams.wedges[corner] = mesh.vertexOf(corner);
+  seams.wedges = mesh.umbrellas;
+  if (!mesh.vertices.empty()) {
+    for (Index& wedge : seams.wedges) wedge = mesh.vertices[wedge];
+  }
   seams.attribute_seams.resize(attribute_count);
   return seams;
 }

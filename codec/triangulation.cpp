@@ -180,7 +180,10 @@ class Output {
   }
 
   void fan(Index face, const Ring& ring, Index apex) {
-    const auto corner = [&](Index i) { return ring.first + (apex + i) % ring.degree; };
+    const auto corner = [&](Index i) {
+      const Index at = apex + i;
+      return ring.first + (at < ring.degree ? at : at - ring.degree);
+    };
     for (Index i = 1; i + 1 < ring.degree; ++i) triangle(face, {corner(0), corner(i), corner(i + 1)});
   }
 
@@ -243,6 +246,7 @@ class Decoder {
 Triangulation fanTriangulation(PolygonView mesh, std::span<const Index> ring_owners) {
   Triangulation result;
   Output output(result, mesh.face_degrees.size());
+  result.corners.reserve(3 * mesh.corners.size() - std::min(3 * mesh.corners.size(), 6 * mesh.face_degrees.size()));
   Index first = 0;
   for (Index face = 0; face < mesh.face_degrees.size(); ++face) {
     const Index degree = mesh.face_degrees[face];
