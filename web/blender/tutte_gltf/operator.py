@@ -10,7 +10,7 @@ from bpy_extras.io_utils import ExportHelper
 from . import command, exporting, report, settings
 
 # What is passed on to Blender's exporter under the same name, with its defaults.
-_SCENE = {'use_selection': ('Selected objects only', False)}
+_SCENE = {'use_selection': ('Selected only', False)}
 _MESH = {
     'export_apply': ('Apply modifiers', False),
     'export_texcoords': ('UVs', True),
@@ -35,7 +35,7 @@ class ExportTutte(bpy.types.Operator, ExportHelper):
     """Export the scene as compressed glTF that keeps quads and n-gons"""
 
     bl_idname = 'export_scene.tutte_gltf'
-    bl_label = 'Export glTF with polygons'
+    bl_label = 'Export glTF'
     bl_options = {'PRESET'}
     filename_ext = '.glb'
     filter_glob: bpy.props.StringProperty(default='*.glb', options={'HIDDEN'})

@@ -1,5 +1,7 @@
 """The add-on's preferences, and how the rest of it reads them."""
 
+from functools import lru_cache
+
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
@@ -29,10 +31,15 @@ class TuttePreferences(bpy.types.AddonPreferences):
         self.layout.prop(self, 'join_vertices')
         try:
             path = tutte.find(self.command)
-            version = tutte.run(path, '--version')[0]
-            self.layout.label(text=f"{path}, version {' '.join(version)}", icon='CHECKMARK')
+            self.layout.label(text=f'{path}, version {_version(path)}', icon='CHECKMARK')
         except tutte.TutteError as error:
-            self.layout.label(text=str(error), icon='ERROR')
+            self.layout.label(text=str(error).split('. ')[0], icon='ERROR')  # the remedy is here
+
+
+@lru_cache
+def _version(path):
+    """Remembered, because preferences are drawn often."""
+    return ' '.join(tutte.run(path, '--version')[0])
 
 
 def _preferences():
