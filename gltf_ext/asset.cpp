@@ -123,7 +123,10 @@ Outcome<Asset> assemble(std::string_view text, Bytes bin, bool is_glb, const std
 Outcome<Asset> parseAsset(std::span<const uint8_t> bytes, const std::filesystem::path& folder) {
   return guarded<Asset>([&]() -> Outcome<Asset> {
     if (!isGlb(bytes)) {
-      return assemble({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, {}, false, folder);
+      const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+      if (text.find('{') == text.npos)
+        return invalid("", "this is no glTF: neither a GLB, which begins with the letters glTF, nor JSON");
+      return assemble(text, {}, false, folder);
     }
     const auto glb = splitGlb(bytes);
     if (!glb) return glb.error();

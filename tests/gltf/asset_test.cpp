@@ -21,6 +21,13 @@ Outcome<Asset> parseText(const std::string& text) { return parseAsset(bytesOf(te
 
 const Bytes kPng = {0x89, 'P', 'N', 'G', 13, 10, 26, 10, 1, 2, 3};
 
+TEST(Asset, WhatIsNoGltfSaysSo) {
+  const auto asset = parseText("solid cube");
+  ASSERT_FALSE(asset);
+  EXPECT_EQ(asset.error().kind, FailureKind::kInvalid);
+  EXPECT_NE(asset.error().what.find("neither a GLB"), std::string::npos) << asset.error().what;
+}
+
 TEST(Uri, PercentDecoding) {
   EXPECT_EQ(percentDecode("a%20b%2Fc"), "a b/c");
   EXPECT_EQ(percentDecode("a%2"), std::nullopt);
