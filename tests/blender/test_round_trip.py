@@ -75,6 +75,14 @@ class RoundTrip(unittest.TestCase):
         self.assertEqual(len(before.points), len(after.points))
         self.assertEqual([len(face) for face in after.faces], [4] * 18)
 
+    def test_what_quantisation_moves_together_stays_apart(self):
+        gap = 1e-5
+        scenes.add('strips', [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 1 + gap, 0), (1, 1 + gap, 0), (1, 9, 0),
+                              (0, 9, 0)], [(0, 1, 2, 3), (4, 5, 6, 7)])
+        scenes.export(self.path)
+        scenes.load(self.path)
+        self.assertEqual(len(bpy.data.objects['strips'].data.vertices), 8)
+
     def test_materials(self):
         scenes.add_materials(scenes.add_drum('drum'), 'red', 'green', 'blue')
         self.passes('drum')

@@ -18,13 +18,13 @@ class glTF2ImportUserExtension:  # the name that the importer looks for
     def __init__(self):
         from io_scene_gltf2.io.com.gltf2_io_extensions import Extension
 
+        self.is_decoded = False
         self.extensions = [Extension(name=name, extension={}, required=True) for name in READ]
 
     def gather_import_gltf_before_hook(self, gltf):
         report.begin()
         _heal_numpy()
-        if EXTENSION in (gltf.data.extensions_used or []):
-            _decode(gltf)
+        self.is_decoded = EXTENSION in (gltf.data.extensions_used or []) and _decode(gltf)
         # Its own joining would hide which vertex is which; ours comes after.
         gltf.import_settings = {**gltf.import_settings, 'merge_vertices': False}
 
@@ -32,7 +32,7 @@ class glTF2ImportUserExtension:  # the name that the importer looks for
         if not any(_notations(primitive) for primitive in pymesh.primitives):
             return
         try:
-            rebuild.give_polygons(mesh, _Source(gltf, pymesh), settings.join_vertices())
+            rebuild.give_polygons(mesh, _Source(gltf, pymesh, self.is_decoded), settings.join_vertices())
         except Exception as error:  # the importer would swallow it, and with it the reason
             traceback.print_exc()
             report.warn(f"The mesh '{mesh.name}' keeps its triangles: {error}")
@@ -45,13 +45,16 @@ def _heal_numpy():
 
 
 def _decode(gltf):
+    """Whether it was done. What prevented it is reported."""
     try:
         _adopt(gltf, _decoded(gltf.filename))
+        return True
     except command.TutteError as error:
         if EXTENSION in (gltf.data.extensions_required or []):
             gltf.data = _Unreadable(f'Tutte: {error}')
         else:
             report.warn(f'The uncompressed copy inside the file was read instead. {error}')
+        return False
 
 
 class _Unreadable:
@@ -88,20 +91,25 @@ def _notations(primitive):
     return {'FB_ngon_encoding', 'EXT_mesh_polygon'}.intersection(primitive.extensions or {})
 
 
+def _share_vertices(pymesh):
+    return len({primitive.attributes.get('POSITION') for primitive in pymesh.primitives}) == 1
+
+
 class _Source:
     """The triangles and polygons of a glTF mesh, over the vertices that the importer made: each primitive's used ones,
-    in order."""
+    in order. Vertices of different `clusters` were never one."""
 
-    def __init__(self, gltf, pymesh):
+    def __init__(self, gltf, pymesh, is_decoded):
         self.gltf = gltf
+        self.clusters = []
         self.triangles = []
         self.polygons = []
         self.vertex_count = 0
         for primitive in pymesh.primitives:
             if 'POSITION' in primitive.attributes:
-                self._add(primitive)
+                self._add(primitive, is_decoded and _share_vertices(pymesh))
 
-    def _add(self, primitive):
+    def _add(self, primitive, in_clusters):
         from io_scene_gltf2.blender.imp.gltf2_blender_mesh import points_edges_tris
 
         mode = 4 if primitive.mode is None else primitive.mode
@@ -110,6 +118,13 @@ class _Source:
         if triangles is not None:
             self._add_faces(primitive, triangles.reshape(-1, 3), used)
         self.vertex_count += len(used)
+        self.clusters.extend(self._clusters(primitive)[used].tolist() if in_clusters else [0] * len(used))
+
+    def _clusters(self, primitive):
+        """Per vertex of the file a number. The decoder lists the copies of a vertex one after the other, so that those
+        of another, which quantisation moved to the same place, can be told from them."""
+        positions = self._read(primitive.attributes['POSITION']).reshape(-1, 3)
+        return np.cumsum((positions != np.roll(positions, 1, axis=0)).any(axis=1))
 
     def _add_faces(self, primitive, triangles, used):
         vertex_of = np.zeros(int(used[-1]) + 1 if len(used) else 0, dtype=np.int64)

@@ -23,7 +23,7 @@ def give_polygons(mesh, source, join):
     with _editing(mesh) as work:
         _replace_faces(work, source, mesh.name)
         if join:
-            _join_seams(work)
+            _join_seams(work, source.clusters)
     if has_normals:
         _restore_normals(mesh)
     mesh.update()
@@ -135,18 +135,20 @@ def _new_face(work, ring, example, corners):
     return face
 
 
-def _join_seams(work):
+def _join_seams(work, clusters):
+    if len(work.verts) != len(clusters):
+        raise ValueError('a triangle has a vertex that its polygon has not')
     work.verts.ensure_lookup_table()
     work.verts.index_update()
     faces = [[vertex.index for vertex in face.verts] for face in work.faces]
-    roots = seams.joined(faces, _values(work))
+    roots = seams.joined(faces, list(zip(clusters, _values(work))))
     targets = {vertex: work.verts[root] for vertex, root in zip(work.verts, roots) if vertex.index != root}
     bmesh.ops.weld_verts(work, targetmap=targets)
 
 
 def _values(work):
     """What a vertex is, but for its number: its places in all shape keys, and its weights."""
-    shapes = [layer for layer in work.verts.layers.shape.values()]
+    shapes = work.verts.layers.shape.values()
     weights = work.verts.layers.deform.active
     return [(vertex.co[:], *(vertex[shape][:] for shape in shapes), *(vertex[weights].items() if weights else ()))
             for vertex in work.verts]
