@@ -38,13 +38,14 @@ inline Limits walkLimits(const SectionHeader& header, const Limits& limits) {
   return {kNone, limits.max_corners, corners};
 }
 
-/// The streams of a section, with the statistics that its header names.
-template <class Statistics, class Observer>
+/// The streams of a section, with the statistics that its header names. `Port`: RangeReader, or one that does more.
+template <class Port, class Statistics, class Observer>
 Result<Connectivity> decodeStreams(const SectionHeader& header, const SectionStreams& streams, const Limits& limits,
                                    Observer& observer) {
-  RangeReader valences(streams.valences), degrees(streams.degrees);
+  Port valences(streams.valences), degrees(streams.degrees);
+  observer.open(valences, degrees);
   Blind oracle;
-  Watched<Script<Statistics, RangeReader, Blind>, Observer> script(observer, header, valences, degrees, oracle);
+  Watched<Script<Statistics, Port, Blind>, Observer> script(observer, header, valences, degrees, oracle);
   Walk walk(script, header.tie, header.leastDegree(), walkLimits(header, limits));
   if (const Error error = walk.run(); error != Error::kNone) return error;
   PrimalMesh primal{std::move(walk.connectivity()), {}, walk.onBoundary()};
@@ -67,13 +68,13 @@ Result<Connectivity> decodeStreams(const SectionHeader& header, const SectionStr
 }
 
 /// decode(), telling `observer` (see Unwatched) what the traversal's symbols say.
-template <class Observer>
+template <class Port = RangeReader, class Observer>
 Result<Connectivity> decodeSection(std::span<const uint8_t> bytes, const Limits& limits, Observer& observer) {
   SectionHeader header;
   const Result<SectionStreams> streams = readSection(bytes, header);
   if (!streams) return streams.error();
   return withStatistics(header, [&]<class Statistics>(std::type_identity<Statistics>) {
-    return decodeStreams<Statistics>(header, *streams, limits, observer);
+    return decodeStreams<Port, Statistics>(header, *streams, limits, observer);
   });
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // The range coder. RangeWriter and RangeReader are the two *ports*: they have the same members, so that every model
 // and every symbol is written down once, for both directions. The writer codes the value it is given and returns it;
-// the reader ignores its argument and returns what it read.
+// the reader ignores its argument and returns what it read. about() tells a port what the next decisions are about.
 //
 // A probability is 16 bits; the interval is 64 bits wide and is renewed in words of 32 bits. The stream is big-endian;
 // of its last word only the bytes that matter are kept, and a reader sees zeros behind the end.
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "codec/mesh.h"
+#include "codec/topic.h"
 
 namespace tutte {
 
@@ -22,6 +23,8 @@ using Probability = uint32_t;
 class RangeWriter {
  public:
   static constexpr bool kWriting = true;
+
+  static void about(Topic) {}
 
   bool code(Probability one, bool value) {
     const uint64_t split = (range_ >> 16) * one;
@@ -91,6 +94,8 @@ class RangeWriter {
 class RangeReader {
  public:
   static constexpr bool kWriting = false;
+
+  static void about(Topic) {}
 
   explicit RangeReader(std::span<const uint8_t> bytes) : bytes_(bytes) {
     code_ = word() << 32;

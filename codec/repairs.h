@@ -32,12 +32,16 @@ class RepairCoder {
       : port_(port), notes_(notes), on_boundary_(on_boundary), limits_(limits), mesh_(mesh) {}
 
   Error run() {
+    port_.about(Topic::kFlips);
     if (port_.code(kEven, !notes_.flipped.empty())) codeFlips();
+    port_.about(Topic::kStrays);
     if (const Error error = codeStrays(); error != Error::kNone) return error;
     mesh_.vertex_count = mesh_.umbrella_count;
+    port_.about(Topic::kJoins);
     if (port_.code(kEven, !notes_.vertices.empty())) {
       if (const Error error = codeVertices(); error != Error::kNone) return error;
     }
+    port_.about(Topic::kIsolated);
     const Index isolated = number_.code(port_, notes_.isolated);
     if (port_.overrun()) return Error::kTruncated;
     if (mesh_.vertex_count > limits_.max_vertices || isolated > limits_.max_vertices - mesh_.vertex_count) {

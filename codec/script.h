@@ -44,13 +44,16 @@ class Script {
         oracle_(oracle) {}
 
   bool component() {
+    valences_.about(Topic::kComponents);
     if (!component_.code(valences_, oracle_.component())) return false;
+    valences_.about(Topic::kCopies);
     damaged_ |= !log_.begin(valences_, oracle_.original());
     return true;
   }
 
   FaceAnswer face(const FaceQuestion& question, const Gaps& gaps) {
     const FaceAnswer truth = oracle_.face();
+    degrees_.about(Topic::kDegrees);
     if (log_.replaying()) {
       const Index symbol = log_.next();
       return {symbol >> 1, (symbol & 1) != 0};
@@ -62,12 +65,14 @@ class Script {
 
   VertexAnswer vertex(const VertexQuestion& question, const Gaps& gaps) {
     const VertexAnswer truth = oracle_.vertex();
+    valences_.about(Topic::kValences);
     if (log_.replaying()) {
       const Index symbol = log_.next();
       return {symbol >> 1, (symbol & 1) != 0};
     }
     VertexAnswer answer{statistics_.vertex(valences_, question, gaps, truth.valence), false};
     if (header_.hasDummyUmbrellas() && answer.valence != 0) {
+      valences_.about(Topic::kHoles);
       answer.dummy = dummy_[std::min(answer.valence, Index{15})].code(valences_, truth.dummy);
     }
     log_.add(answer.valence << 1 | static_cast<Index>(answer.dummy));
@@ -80,6 +85,7 @@ class Script {
       const Index gap = log_.next();
       return {gap, log_.next()};
     }
+    valences_.about(Topic::kSplits);
     const SplitAnswer answer = splits_.code(valences_, question, gaps, truth);
     log_.add(answer.gap);
     log_.add(answer.slots_after);

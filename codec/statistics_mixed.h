@@ -124,6 +124,7 @@ class MixedStatistics {
     const int situation =
         static_cast<int>(features.behind * 3 + std::min<uint64_t>(features.known, 3) - (features.known > 0));
     if (may_be_dummy) {
+      port.about(Topic::kHoles);
       answer.dummy = decide(port, faces_, {0, situation}, kAskDummy, truth.dummy);
       if (answer.dummy) {
         if (!question.closed) answer.degree = 3 + dummy_degree_.code(port, truth.degree - 3);
@@ -131,6 +132,7 @@ class MixedStatistics {
       }
     }
     if (degree_known) return answer;
+    port.about(Topic::kDegrees);
     const Index least = std::max(header_.leastDegree(), question.known_edges + 1);
     Index degree = least;
     for (; degree < least + kLongest - 4; ++degree) {

@@ -44,6 +44,7 @@ class PaperStatistics {
     const Index context = paperFaceContext(question, gaps);
     FaceAnswer answer{question.closed ? question.known_edges : header_.uniform_degree, false};
     if (answer.degree != 0) {
+      port.about(Topic::kHoles);
       answer.dummy = header_.hasDummyFaces() && question.gap != kNone && dummy_[context].code(port, truth.dummy);
       if (answer.dummy && !question.closed) answer.degree = 3 + dummy_degree_.code(port, truth.degree - 3);
       return answer;

@@ -6,7 +6,7 @@ namespace tutte {
 namespace {
 
 // Turns the walk's questions and answers into events.
-class Tracer {
+class Tracer : public Unwatched {
  public:
   explicit Tracer(const TraceSink& sink) : sink_(sink) {}
 

@@ -11,6 +11,8 @@ namespace tutte {
 
 /// Watches nothing, and costs nothing. Other observers have the same members.
 struct Unwatched {
+  template <class Port>
+  static void open(Port& /*valences*/, Port& /*degrees*/) {}
   static void component(bool) {}
   static void face(const FaceQuestion&, const FaceAnswer&, const Gaps&) {}
   static void vertex(const VertexQuestion&, Index) {}

@@ -57,6 +57,7 @@ struct Plane {
   uint8_t components = 1;
   int32_t max = 0;
   std::vector<int32_t> values;
+  uint32_t coded_bytes = 0;  ///< once decoded: what the plane took of the stream
 
   bool octahedral() const { return kind == PlaneKind::kNormal || kind == PlaneKind::kDirection; }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <numeric>
 
 #include "gltf_ext/attribute_coding.h"
 #include "gltf_ext/draco_planes.h"
@@ -25,7 +26,8 @@ struct Head {
   uint8_t coder = kDracoCoder;
   std::vector<Attribute> attributes;  ///< without data
   std::vector<AttributeCoding> codings;
-  std::vector<Plane> planes;  ///< of all attributes, without values
+  std::vector<uint32_t> sizes;  ///< of the attributes' descriptions, in bytes
+  std::vector<Plane> planes;    ///< of all attributes, without values
 
   std::span<Plane> planesOf(size_t attribute) {
     const auto [first, last] = std::ranges::equal_range(planes, attribute, {}, &Plane::attribute);
@@ -75,7 +77,9 @@ Outcome<Head> readHead(ByteReader& in) {
   Head head;
   head.coder = coder;
   for (uint32_t i = 0; i < count; ++i) {
+    const size_t before = in.remaining();
     if (!readAttribute(in, head)) return damaged("an attribute's description is damaged");
+    head.sizes.push_back(static_cast<uint32_t>(before - in.remaining()));
   }
   addPlanes(head);
   return head;
@@ -198,6 +202,25 @@ Outcome<std::vector<Attribute>> decodeAttributes(const AttributeTopology& topolo
     return Failure{FailureKind::kUnsupported, "", "out of memory while decoding attributes"};
   }
   return std::move(head->attributes);
+}
+
+uint32_t AttributeSize::bytes() const { return std::accumulate(plane_bytes.begin(), plane_bytes.end(), head_bytes); }
+
+Outcome<std::vector<AttributeSize>> attributeSizes(const AttributeTopology& topology, std::span<const uint8_t> bytes) {
+  ByteReader in(bytes);
+  auto head = readHead(in);
+  if (!head) return head.error();
+  try {
+    if (!decodeStream(topology, in.take(in.remaining()), *head)) return damaged("the attribute stream is damaged");
+    std::vector<AttributeSize> sizes;
+    for (size_t i = 0; i < head->attributes.size(); ++i) {
+      sizes.push_back({head->attributes[i].name, head->sizes[i], {}});
+      for (const Plane& plane : head->planesOf(i)) sizes.back().plane_bytes.push_back(plane.coded_bytes);
+    }
+    return sizes;
+  } catch (const std::bad_alloc&) {
+    return Failure{FailureKind::kUnsupported, "", "out of memory while decoding attributes"};
+  }
 }
 
 }  // namespace tutte

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "codec/mesh.h"
@@ -37,5 +38,18 @@ Outcome<std::vector<AttributeCoding>> describeCodings(std::span<const uint8_t> b
 /// All attributes, or a Failure. Any bytes may be passed: nothing escapes but the Outcome, and memory is in proportion
 /// to attributes * wedges, corners and bytes.
 Outcome<std::vector<Attribute>> decodeAttributes(const AttributeTopology& topology, std::span<const uint8_t> bytes);
+
+/// What one attribute takes of the section.
+struct AttributeSize {
+  std::string name;
+  uint32_t head_bytes = 0;            ///< its description
+  std::vector<uint32_t> plane_bytes;  ///< its values, one number per plane (see planesOf())
+
+  uint32_t bytes() const;
+};
+
+/// Per attribute; in sum the section less its first two or three bytes. Decodes everything, with the errors of
+/// decodeAttributes().
+Outcome<std::vector<AttributeSize>> attributeSizes(const AttributeTopology& topology, std::span<const uint8_t> bytes);
 
 }  // namespace tutte

@@ -125,7 +125,9 @@ class PlanesDecoder : public draco::AttributesDecoderInterface {
   bool decodePlane(int id, draco::DecoderBuffer* buffer) {
     const ValueLayout& layout = session_.layout(id);
     auto coder = std::make_unique<PlaneDecoder>(session_, mesh_);
+    const int64_t before = buffer->remaining_size();
     if (!coder->Init(decoder_, id) || !coder->DecodePortableAttribute(layout.points, buffer)) return false;
+    out_[id].coded_bytes = static_cast<uint32_t>(before - buffer->remaining_size());
     if (coder->refused() || coder->numbers() == nullptr || !takeValues(id, coder->numbers())) return false;
     if (session_.plane(id).kind != PlaneKind::kPosition) return true;
     coder->becomeParent();

@@ -160,9 +160,11 @@ void writePlane(const ValueSites& sites, const Plane& plane, std::span<const int
 }
 
 bool readPlane(const ValueSites& sites, const WedgeSites& wedges, ByteReader& in, Plane& plane) {
+  const size_t before = in.remaining();
   const uint8_t head = in.byte();
   const uint32_t size = in.varint();
   const std::span<const uint8_t> bytes = in.take(size);
+  plane.coded_bytes = static_cast<uint32_t>(before - in.remaining());
   const std::optional<ValueFormat> format = formatOf(plane, head);
   if (in.error() != Error::kNone || !format) return false;
   const Result<std::vector<int32_t>> values = decodeValues(sites, *format, bytes);

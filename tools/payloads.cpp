@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "codec/payload_mesh.h"
 #include "gltf_ext/attribute_name.h"
-#include "gltf_ext/attributes.h"
+#include "gltf_ext/attribute_topology.h"
 #include "gltf_ext/decompress.h"
 
 namespace tutte {
@@ -24,6 +25,13 @@ int& bitsFor(const std::string& name, PackOptions& options) {
 }
 
 }  // namespace
+
+Outcome<std::vector<AttributeSize>> attributeSizesOf(const PayloadView& payload) {
+  if (!payload.has(Section::kAttributes)) return std::vector<AttributeSize>();
+  const Result<PayloadMesh, PayloadFailure> mesh = decodePayloadMesh(payload, Limits{});
+  if (!mesh) return failureOf(mesh.error().error, "section " + std::string(mesh.error().where));
+  return attributeSizes(attributeTopology(mesh->connectivity, mesh->seams), payload[Section::kAttributes]);
+}
 
 std::optional<PackOptions> codedBits(const Asset& asset) {
   const Outcome<std::vector<PayloadBytes>> payloads = payloadsOf(asset);

@@ -7,6 +7,7 @@
 
 #include "codec/payload.h"
 #include "gltf_ext/asset.h"
+#include "gltf_ext/attributes.h"
 #include "gltf_ext/extension.h"
 #include "gltf_ext/failure.h"
 #include "gltf_ext/pack.h"
@@ -22,6 +23,9 @@ struct PayloadBytes {
 /// All payloads with valid headers and checksums, in order of their place. Errors: as decompress(); kUnsupported when
 /// the asset has none.
 Outcome<std::vector<PayloadBytes>> payloadsOf(const Asset& asset);
+
+/// What each attribute of a payload takes of its section ATTRIBUTES; decodes the payload for it. Empty without one.
+Outcome<std::vector<AttributeSize>> attributeSizesOf(const PayloadView& payload);
 
 /// The coarsest quantisation that the payloads state, per kind of attribute; 0 where all are without loss. Nothing when
 /// the asset has no payload that can be read.

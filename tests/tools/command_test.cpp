@@ -131,6 +131,21 @@ TEST_F(Command, AttributesCanBeLeftOut) {
   expectCode(tutte("verify --attributes POSITION " + house_ + " " + path("house.glb")), 0);
 }
 
+/// All bytes of the section ATTRIBUTES belong to one of them, but for the first ones.
+void expectAttributesFillTheirSection(const nlohmann::json& inspected) {
+  const auto& payload = inspected.at("payloads").at(0);
+  size_t section_bytes = 0, attribute_bytes = 0;
+  for (const auto& section : payload.at("sections")) {
+    if (section.at("name") == "ATTRIBUTES") section_bytes = section.at("bytes");
+  }
+  for (const auto& attribute : payload.at("attributes")) {
+    attribute_bytes += attribute.at("bytes").get<size_t>();
+    EXPECT_FALSE(attribute.at("planeBytes").empty());
+  }
+  EXPECT_GE(section_bytes, attribute_bytes + 2);
+  EXPECT_LE(section_bytes, attribute_bytes + 3);
+}
+
 TEST_F(Command, InspectCountsEveryByte) {
   expectCode(tutte("encode " + house_ + " " + path("house.glb")), 0);
   const Finished finished = tutte("inspect --json " + path("house.glb"));
@@ -149,8 +164,15 @@ TEST_F(Command, InspectCountsEveryByte) {
     if (!section.contains("streams")) continue;
     for (const auto& stream : section.at("streams")) inner += stream.at("bytes").get<size_t>();
     EXPECT_EQ(inner, section.at("bytes"));
+    double bits = 0;
+    for (const auto& entry : section.at("classes")) bits += entry.at("bits").get<double>();
+    EXPECT_NEAR(bits, 8.0 * static_cast<double>(inner), 1e-6);
   }
   EXPECT_EQ(bytes, payload.at("byteLength"));
+  for (const std::string coder : {"draco", "tutte"}) {
+    expectCode(tutte("encode --attribute-coder " + coder + " " + house_ + " " + path("house.glb")), 0);
+    expectAttributesFillTheirSection(nlohmann::json::parse(tutte("inspect --json " + path("house.glb")).out));
+  }
   EXPECT_NE(tutte("inspect " + path("house.glb")).out.find("CONNECTIVITY"), std::string::npos);
 }
 
