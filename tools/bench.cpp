@@ -7,115 +7,142 @@
 
 #include "codec/decode.h"
 #include "codec/payload.h"
+#include "gltf_ext/compress.h"
 #include "gltf_ext/triangulate.h"
 #include "tools/draco_baseline.h"
 #include "tools/paper_rates.h"
+#include "tools/payloads.h"
 
 namespace tutte {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr int kMostRounds = 10;
+
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Runs `step` (which returns whether it worked) until the time is up, ten times at most; the best time, or nothing.
+/// What `step` returns, and the least time that it took so far. A time of 0: none yet.
 template <class Step>
-std::optional<double> bestTime(double seconds, Step step) {
-  double best = INFINITY;
-  const Clock::time_point begin = Clock::now();
-  for (int run = 0; run < 10 && (run == 0 || secondsSince(begin) < seconds); ++run) {
-    const Clock::time_point start = Clock::now();
-    if (!step()) return {};
-    best = std::min(best, secondsSince(start));
-  }
-  return best;
+auto timed(double& best, Step step) {
+  const Clock::time_point start = Clock::now();
+  auto result = step();
+  const double seconds = secondsSince(start);
+  best = best == 0 ? seconds : std::min(best, seconds);
+  return result;
 }
 
-CoderFigures figuresOf(const DracoFigures& draco) {
-  return {draco.connectivity_bytes,
-          draco.attribute_bytes,
-          draco.total_bytes,
-          draco.encode_seconds,
-          draco.connectivity_encode_seconds,
-          draco.decode_seconds,
-          draco.connectivity_decode_seconds};
-}
-
-void addTo(std::optional<CoderFigures>& sum, const std::optional<CoderFigures>& more) {
-  if (sum && more)
-    *sum += *more;
-  else
-    sum.reset();
-}
-
-class MeshBench {
+/// One mesh through our whole codec, again and again.
+class OurCoder {
  public:
-  MeshBench(const PolygonMesh& mesh, const PackOptions& options, double seconds)
-      : mesh_(mesh), triangulated_(mesh), options_(options), seconds_(seconds) {
-    triangulate(triangulated_);
-  }
+  OurCoder(const PolygonMesh& mesh, const PackOptions& options) : mesh_(mesh), options_(options) {}
 
-  Outcome<BenchFigures> run() {
-    BenchFigures figures;
-    if (const Outcome<Done> done = measureOurs(figures); !done) return done.error();
-    figures.draco_cl7 = draco(figures, dracoTriangles, 7);
-    figures.draco_cl10 = draco(figures, dracoTriangles, 10);
-    figures.draco_polygons = draco(figures, dracoPolygons, 10);
-    return figures;
-  }
-
- private:
-  Outcome<Done> measureOurs(BenchFigures& figures) {
-    Packed packed;
-    Failure failure;
-    double connectivity = INFINITY;
-    const auto encode_time = bestTime(seconds_, [&] {
-      Outcome<Packed> outcome = pack(mesh_, options_);
-      if (!outcome) return failure = outcome.error(), false;
-      packed = *std::move(outcome);
-      connectivity = std::min(connectivity, packed.connectivity_encode_seconds);
-      return true;
-    });
-    if (!encode_time) return failure;
-    const auto decode_time = bestTime(seconds_, [&] {
-      const Outcome<PolygonMesh> outcome = unpack(packed.bytes);
-      return outcome ? true : (failure = outcome.error(), false);
-    });
-    if (!decode_time) return failure;
-    const Result<PayloadView> view = parsePayload(packed.bytes);
-    const auto connectivity_time = bestTime(seconds_, [&] { return decode((*view)[Section::kConnectivity]).ok(); });
-    figures.vertices = mesh_.polygons.vertex_count;
-    figures.wedges = mesh_.wedge_count;
-    figures.faces = mesh_.polygons.face_degrees.size();
-    figures.splits = packed.splits;
-    figures.valence_bytes = packed.valence_bytes;
-    figures.degree_bytes = packed.degree_bytes;
-    figures.seam_bytes = packed.seam_bytes;
-    figures.ours = {packed.connectivity_bytes,
-                    packed.attribute_bytes,
-                    packed.bytes.size(),
-                    *encode_time,
-                    connectivity,
-                    *decode_time,
-                    connectivity_time.value_or(0)};
+  Outcome<Done> run() {
+    Outcome<Packed> packed = timed(figures_.encode_seconds, [&] { return pack(mesh_, options_); });
+    if (!packed) return packed.error();
+    double& connectivity = figures_.connectivity_encode_seconds;
+    const double seconds = packed->connectivity_encode_seconds;
+    connectivity = connectivity == 0 ? seconds : std::min(connectivity, seconds);
+    packed_ = *std::move(packed);
+    const auto unpacked = timed(figures_.decode_seconds, [&] { return unpack(packed_.bytes); });
+    if (!unpacked) return unpacked.error();
+    const Result<PayloadView> view = parsePayload(packed_.bytes);
+    const auto section = (*view)[Section::kConnectivity];
+    const auto decoded = timed(figures_.connectivity_decode_seconds, [&] { return decode(section); });
+    if (!decoded) return failureOf(decoded.error(), "connectivity");
     return Done{};
   }
 
-  template <class Coder>
-  std::optional<CoderFigures> draco(BenchFigures& figures, Coder coder, int level) const {
-    const double guess = std::max(1e-6, figures.ours.encode_seconds);
-    const DracoRun run{level, static_cast<int>(std::clamp(seconds_ / guess, 1.0, 10.0))};
-    const Outcome<DracoFigures> outcome = coder(triangulated_, options_, run);
-    if (outcome) return figuresOf(*outcome);
-    figures.draco_refusal = outcome.error().what;
-    return {};
+  Outcome<Done> report(BenchFigures& figures) {
+    figures.vertices = mesh_.polygons.vertex_count;
+    figures.wedges = mesh_.wedge_count;
+    figures.faces = mesh_.polygons.face_degrees.size();
+    figures.splits = packed_.splits;
+    figures.valence_bytes = packed_.valence_bytes;
+    figures.degree_bytes = packed_.degree_bytes;
+    figures_.connectivity_bytes = packed_.connectivity_bytes;
+    figures_.seam_bytes = packed_.seam_bytes;
+    figures_.attribute_bytes = packed_.attribute_bytes;
+    figures_.total_bytes = packed_.bytes.size();
+    const Outcome<std::vector<AttributeSize>> sizes = attributeSizesOf(*parsePayload(packed_.bytes));
+    if (!sizes) return sizes.error();
+    for (const AttributeSize& size : *sizes) figures_.by_attribute[size.name] += size.bytes();
+    figures.ours = figures_;
+    return Done{};
   }
 
+ private:
   const PolygonMesh& mesh_;
-  PolygonMesh triangulated_;  ///< for Draco, which knows no polygons
   const PackOptions& options_;
-  double seconds_;
+  Packed packed_;
+  CoderFigures figures_;
 };
+
+/// Its connectivity alone with one profile.
+Outcome<Done> runProfile(const PolygonMesh& mesh, EncodeOptions options, Profile profile, ProfileFigures& figures) {
+  options.profile = profile;
+  const Result<Encoded> encoded = timed(figures.encode_seconds, [&] { return encode(mesh.polygons, options); });
+  if (!encoded) return failureOf(encoded.error(), "connectivity");
+  const auto decoded = timed(figures.decode_seconds, [&] { return decode(encoded->bytes); });
+  if (!decoded) return failureOf(decoded.error(), "connectivity");
+  figures.valence_bytes = encoded->valence_bytes;
+  figures.degree_bytes = encoded->degree_bytes;
+  figures.connectivity_bytes = encoded->bytes.size();
+  return Done{};
+}
+
+/// Draco in one of its ways.
+struct DracoCoder {
+  DracoBaseline baseline;
+  std::optional<CoderFigures> BenchFigures::*place;
+};
+
+CoderFigures figuresOf(const DracoFigures& draco) {
+  CoderFigures figures;
+  figures.connectivity_bytes = draco.connectivity_bytes;
+  figures.seam_bytes = draco.seam_bytes;
+  figures.attribute_bytes = draco.attribute_bytes;
+  for (const auto& [name, bytes] : draco.by_attribute) figures.by_attribute[name] += bytes;
+  figures.total_bytes = draco.total_bytes;
+  figures.encode_seconds = draco.encode_seconds;
+  figures.connectivity_encode_seconds = draco.connectivity_encode_seconds;
+  figures.decode_seconds = draco.decode_seconds;
+  figures.connectivity_decode_seconds = draco.connectivity_decode_seconds;
+  return figures;
+}
+
+std::vector<DracoCoder> dracoCoders(const PolygonMesh& mesh, const PackOptions& options) {
+  std::vector<DracoCoder> coders;
+  coders.push_back({{mesh, options, DracoInput::kTriangles, 7}, &BenchFigures::draco_cl7});
+  coders.push_back({{mesh, options, DracoInput::kTriangles, 10}, &BenchFigures::draco_cl10});
+  coders.push_back({{mesh, options, DracoInput::kPolygons, 10}, &BenchFigures::draco_polygons});
+  return coders;
+}
+
+Outcome<BenchFigures> measureMesh(const PolygonMesh& mesh, const BenchPlan& plan) {
+  PolygonMesh triangulated = mesh;  // for Draco, which knows no polygons
+  triangulate(triangulated);
+  BenchFigures figures;
+  OurCoder ours(mesh, plan.options);
+  std::vector<DracoCoder> dracos = dracoCoders(triangulated, plan.options);
+  const double seconds = plan.seconds * static_cast<double>(1 + dracos.size());
+  const Clock::time_point begin = Clock::now();
+  for (int round = 0; round < kMostRounds && (round == 0 || secondsSince(begin) < seconds); ++round) {
+    if (const Outcome<Done> done = ours.run(); !done) return done.error();
+    for (const Profile profile : plan.profiles) {
+      ProfileFigures& kept = figures.profiles[profile];
+      if (const auto done = runProfile(mesh, plan.options.connectivity, profile, kept); !done) return done.error();
+    }
+    for (DracoCoder& draco : dracos) {
+      if (const Outcome<Done> done = draco.baseline.run(); !done) figures.draco_refusal = done.error().what;
+    }
+  }
+  if (const Outcome<Done> done = ours.report(figures); !done) return done.error();
+  for (DracoCoder& draco : dracos) {
+    if (!draco.baseline.refused()) figures.*draco.place = figuresOf(draco.baseline.figures());
+  }
+  return figures;
+}
 
 void addPaper(BenchFigures& figures, const Scene& scene) {
   if (scene.meshes.size() != 1) return;
@@ -131,58 +158,21 @@ void addPaper(BenchFigures& figures, const Scene& scene) {
 
 }  // namespace
 
-CoderFigures& CoderFigures::operator+=(const CoderFigures& other) {
-  connectivity_bytes += other.connectivity_bytes;
-  attribute_bytes += other.attribute_bytes;
-  total_bytes += other.total_bytes;
-  encode_seconds += other.encode_seconds;
-  connectivity_encode_seconds += other.connectivity_encode_seconds;
-  decode_seconds += other.decode_seconds;
-  connectivity_decode_seconds += other.connectivity_decode_seconds;
-  return *this;
-}
-
-double BenchFigures::bitsPerVertex() const {
-  return vertices == 0 ? 0 : 8.0 * static_cast<double>(ours.connectivity_bytes) / static_cast<double>(vertices);
-}
-
-BenchFigures& BenchFigures::operator+=(const BenchFigures& other) {
-  vertices += other.vertices;
-  wedges += other.wedges;
-  faces += other.faces;
-  splits += other.splits;
-  valence_bytes += other.valence_bytes;
-  degree_bytes += other.degree_bytes;
-  seam_bytes += other.seam_bytes;
-  ours += other.ours;
-  addTo(draco_cl7, other.draco_cl7);
-  addTo(draco_cl10, other.draco_cl10);
-  addTo(draco_polygons, other.draco_polygons);
-  if (draco_refusal.empty()) draco_refusal = other.draco_refusal;
-  if (other.paper_bytes) paper_bytes = paper_bytes.value_or(0) + *other.paper_bytes;
-  paper_counterpart += other.paper_counterpart;
-  glb_bytes += other.glb_bytes;
-  return *this;
-}
-
-Outcome<BenchFigures> measure(const std::string& file, Scene scene, const PackOptions& options,
-                              const std::set<std::string>& attributes, double seconds) {
-  BenchFigures figures;
-  figures.file = file;
-  figures.draco_cl7 = figures.draco_cl10 = figures.draco_polygons = CoderFigures{};
+Outcome<BenchFigures> measure(const std::string& file, Scene scene, const BenchPlan& plan) {
+  BenchFigures figures = emptySum(file);
   for (SceneMesh& mesh : scene.meshes) {
     if (mesh.mesh.polygons.face_degrees.empty()) continue;
-    if (!attributes.empty()) {
+    if (!plan.attributes.empty()) {
       std::erase_if(mesh.mesh.attributes, [&](const Attribute& attribute) {
-        return attribute.name != "POSITION" && !attributes.count(attribute.name);
+        return attribute.name != "POSITION" && !plan.attributes.count(attribute.name);
       });
     }
-    const Outcome<BenchFigures> one = MeshBench(mesh.mesh, options, seconds).run();
+    const Outcome<BenchFigures> one = measureMesh(mesh.mesh, plan);
     if (!one) return one.error();
     figures += *one;
   }
   addPaper(figures, scene);
-  const Outcome<Compressed> compressed = sceneToAsset(scene, {.pack = options, .attributes = {}});
+  const Outcome<Compressed> compressed = sceneToAsset(scene, {.pack = plan.options, .attributes = {}});
   if (!compressed) return compressed.error();
   const Outcome<Bytes> glb = toGlb(compressed->asset);
   if (!glb) return glb.error();

@@ -1,51 +1,27 @@
 #pragma once
 // Sizes and times of one file, beside Draco's.
 
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "gltf_ext/pack.h"
 #include "gltf_ext/scene.h"
+#include "tools/bench_figures.h"
 
 namespace tutte {
 
-/// Bytes and seconds of one coder, summed over the meshes of a file.
-struct CoderFigures {
-  uint64_t connectivity_bytes = 0;
-  uint64_t attribute_bytes = 0;
-  uint64_t total_bytes = 0;
-  double encode_seconds = 0;
-  double connectivity_encode_seconds = 0;
-  double decode_seconds = 0;
-  double connectivity_decode_seconds = 0;
-
-  CoderFigures& operator+=(const CoderFigures& other);
+/// What is measured, and for how long.
+struct BenchPlan {
+  PackOptions options;
+  std::set<std::string> attributes;  ///< are kept, and POSITION; empty: all
+  std::vector<Profile> profiles;     ///< of which the connectivity is measured alone, too
+  double seconds = 0.3;              ///< for each coder and mesh
 };
 
-/// All figures of a file, or of several in sum.
-struct BenchFigures {
-  std::string file;
-  uint64_t vertices = 0, wedges = 0, faces = 0, splits = 0;
-  uint64_t valence_bytes = 0, degree_bytes = 0, seam_bytes = 0;
-  CoderFigures ours;  ///< attribute_bytes include seams; total_bytes are the payloads
-  std::optional<CoderFigures> draco_cl7, draco_cl10, draco_polygons;  ///< nothing where Draco refuses the mesh
-  std::string draco_refusal;                                          ///< its reason
-  std::optional<uint64_t> paper_bytes;  ///< of connectivity, if the model is one of the paper's
-  uint64_t paper_counterpart = 0;       ///< our connectivity bytes of those models
-  uint64_t glb_bytes = 0;               ///< of the whole file, with its JSON
-
-  uint64_t otherConnectivityBytes() const { return ours.connectivity_bytes - valence_bytes - degree_bytes; }
-  double bitsPerVertex() const;
-
-  /// Draco's figures stay only where both have them.
-  BenchFigures& operator+=(const BenchFigures& other);
-};
-
-/// Measures every mesh of the scene that has polygons. `attributes` are kept, and POSITION; empty: all. Every step runs
-/// until `seconds` are spent or ten runs are done, and its best time counts.
-Outcome<BenchFigures> measure(const std::string& file, Scene scene, const PackOptions& options,
-                              const std::set<std::string>& attributes, double seconds);
+/// Measures every mesh of the scene that has polygons. All coders run in turn, round after round, until their time is
+/// spent or ten rounds are done, and the best time of each step counts: so all are the best of the same number of
+/// runs, and what else the machine does meets all alike.
+Outcome<BenchFigures> measure(const std::string& file, Scene scene, const BenchPlan& plan);
 
 }  // namespace tutte

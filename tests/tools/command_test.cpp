@@ -190,19 +190,40 @@ TEST_F(Command, BenchHasEveryField) {
   const Finished finished = tutte("bench --json --seconds 0 " + house_);
   expectCode(finished, 0);
   const auto json = nlohmann::json::parse(finished.out);
-  for (const char* field :
-       {"file", "vertices", "faces", "splits", "connectivity_bytes", "valence_bytes", "degree_bytes", "bits_per_vertex",
-        "attribute_bytes", "total_bytes", "encode_seconds", "decode_seconds", "connectivity_decode_seconds",
-        "draco_cl7", "draco_cl10", "draco_polygons_total_bytes", "glb_bytes", "paper_bytes"}) {
+  for (const char* field : {"file",
+                            "vertices",
+                            "faces",
+                            "splits",
+                            "connectivity_bytes",
+                            "valence_bytes",
+                            "degree_bytes",
+                            "bits_per_vertex",
+                            "attribute_bytes",
+                            "total_bytes",
+                            "encode_seconds",
+                            "decode_seconds",
+                            "connectivity_decode_seconds",
+                            "draco_cl7",
+                            "draco_cl10",
+                            "draco_polygons_total_bytes",
+                            "glb_bytes",
+                            "paper_bytes",
+                            "by_attribute",
+                            "profiles"}) {
     EXPECT_TRUE(json.contains(field)) << field;
   }
   for (const char* draco : {"draco_cl7", "draco_cl10"}) {
     for (const char* field : {"connectivity_bytes", "attribute_bytes", "total_bytes", "encode_seconds",
-                              "decode_seconds", "connectivity_decode_seconds"}) {
+                              "decode_seconds", "connectivity_decode_seconds", "seam_bytes", "by_attribute"}) {
       EXPECT_TRUE(json.at(draco).contains(field)) << field;
     }
   }
   EXPECT_EQ(json.at("faces"), 7);
+  EXPECT_EQ(json.at("profiles").size(), 4u);
+  EXPECT_TRUE(json.at("by_attribute").contains("POSITION"));
+  EXPECT_TRUE(json.at("draco_cl10").at("by_attribute").contains("POSITION"));
+  const auto two = nlohmann::json::parse(tutte("bench --json --seconds 0 --profiles fast,small " + house_).out);
+  EXPECT_EQ(two.at("profiles").size(), 2u);
   const Finished table = tutte("bench --seconds 0 --attributes POSITION " + house_);
   expectCode(table, 0);
   EXPECT_NE(table.out.find("sum"), std::string::npos);

@@ -1,0 +1,62 @@
+#pragma once
+// What `tutte bench` measures, and how it adds up.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "codec/profile.h"
+
+namespace tutte {
+
+/// Bytes and seconds of one coder, summed over the meshes of a file.
+struct CoderFigures {
+  uint64_t connectivity_bytes = 0;
+  uint64_t seam_bytes = 0;
+  uint64_t attribute_bytes = 0;
+  std::map<std::string, uint64_t> by_attribute;  ///< by its name
+  uint64_t total_bytes = 0;
+  double encode_seconds = 0;
+  double connectivity_encode_seconds = 0;
+  double decode_seconds = 0;
+  double connectivity_decode_seconds = 0;
+
+  CoderFigures& operator+=(const CoderFigures& other);
+};
+
+/// The connectivity alone, with one profile.
+struct ProfileFigures {
+  uint64_t valence_bytes = 0;
+  uint64_t degree_bytes = 0;
+  uint64_t connectivity_bytes = 0;
+  double encode_seconds = 0;
+  double decode_seconds = 0;
+
+  ProfileFigures& operator+=(const ProfileFigures& other);
+};
+
+/// All figures of a file, or of several in sum.
+struct BenchFigures {
+  std::string file;
+  uint64_t vertices = 0, wedges = 0, faces = 0, splits = 0;
+  uint64_t valence_bytes = 0, degree_bytes = 0;
+  CoderFigures ours;  ///< attribute_bytes include seams; total_bytes are the payloads
+  std::map<Profile, ProfileFigures> profiles;
+  std::optional<CoderFigures> draco_cl7, draco_cl10, draco_polygons;  ///< nothing where Draco refuses the mesh
+  std::string draco_refusal;                                          ///< its reason
+  std::optional<uint64_t> paper_bytes;  ///< of connectivity, if the model is one of the paper's
+  uint64_t paper_counterpart = 0;       ///< our connectivity bytes of those models
+  uint64_t glb_bytes = 0;               ///< of the whole file, with its JSON
+
+  uint64_t otherConnectivityBytes() const { return ours.connectivity_bytes - valence_bytes - degree_bytes; }
+  double bitsPerVertex() const;
+
+  /// Draco's figures stay only where both have them.
+  BenchFigures& operator+=(const BenchFigures& other);
+};
+
+/// A sum of nothing, to which figures can be added.
+BenchFigures emptySum(const std::string& name);
+
+}  // namespace tutte
