@@ -18,7 +18,7 @@ Result<WalkedCandidate> walkWith(const Topology& topology, const Candidate& cand
   MeshOracle oracle(topology, candidate.components);
   const SectionHeader& header = candidate.header;
   Script<Statistics, RangeWriter, MeshOracle> script(header, valences, degrees, oracle);
-  Walk walk(script, header.tie, header.leastDegree(), kNoLimits);
+  Walk walk(script, header.tie, header.leastDegree(), kNoLimits, topology.twin.size());
   if (const Error error = walk.run(); error != Error::kNone) return error;
   WalkedCandidate walked;
   walked.header = header;

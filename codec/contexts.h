@@ -5,30 +5,33 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <span>
 
 #include "codec/gaps.h"
 #include "codec/walk.h"
 
 namespace tutte {
 
-/// The last symbols of both streams, newest first; valences and degrees up to 255.
+/// The last three symbols of both streams, the newest in the lowest byte; valences and degrees up to 255.
 struct History {
-  std::array<uint8_t, 3> valences{}, degrees{};
+  uint32_t valences = 0, degrees = 0;
 
   void addValence(Index valence) { push(valences, valence); }
   void addDegree(Index degree) { push(degrees, degree); }
 
  private:
-  static void push(std::array<uint8_t, 3>& list, Index value) {
-    list = {static_cast<uint8_t>(std::min(value, Index{255})), list[0], list[1]};
-  }
+  static void push(uint32_t& list, Index value) { list = (list << 8 | std::min(value, Index{255})) & 0xFFFFFF; }
 };
+
+/// kSides[angle >> 6]: see sidesOf.
+inline constexpr std::array<uint8_t, 1024> kSides = [] {
+  std::array<uint8_t, 1024> sides{};
+  for (int part = 0; part < 1024; ++part) sides[part] = static_cast<uint8_t>(std::min(30, 4096 / (1024 - part)));
+  return sides;
+}();
 
 /// Sides of the regular polygon with the given angle (1 - 2 / sides, in 1/65536), in half steps, at most 30.
 inline uint64_t sidesOf(int64_t angle) {
-  const int64_t part = std::clamp(angle >> 6, int64_t{0}, int64_t{1023});
-  return static_cast<uint64_t>(std::min(int64_t{30}, 4096 / (1024 - part)));
+  return kSides[static_cast<size_t>(std::clamp(angle >> 6, int64_t{0}, int64_t{1023}))];
 }
 
 /// Packs features, the first one lowest. Each is given with its number of bits.
@@ -59,7 +62,9 @@ struct VertexFeatures {
   uint64_t degree_after;             // degree behind the edge that leaves current
   History history;
 
-  VertexFeatures(const VertexQuestion& q, const Gaps& gaps, Index usual_valence, const History& recent)
+  // Inlined, so that what no context of a profile reads is not gathered.
+  [[gnu::always_inline]] VertexFeatures(const VertexQuestion& q, const Gaps& gaps, Index usual_valence,
+                                        const History& recent)
       : history(recent) {
     const Gap& a = q.head == kNone ? kNoGap : gaps[q.head];
     const Gap& b = q.current == kNone ? kNoGap : gaps[q.current];
@@ -75,7 +80,8 @@ struct VertexFeatures {
     head_sum = sum(a, regular), current_sum = sum(b, regular);
     opposite = q.index == 0 && q.before_tail != kNone ? edge.opposite_next : 15;
     opposite_head = q.missing == 1 && q.head != kNone ? a.opposite_own : 15;
-    predicted = sidesOf((131072 - q.angle) / static_cast<int64_t>(q.missing));
+    const int64_t rest = 131072 - q.angle;
+    predicted = sidesOf(q.missing == 1 ? rest : rest / static_cast<int64_t>(q.missing));
     degree_after = std::min(b.degree_behind, Index{15});
   }
 
@@ -111,7 +117,7 @@ enum class VertexContext {
 };
 
 template <VertexContext context>
-uint64_t keyOf(const VertexFeatures& f) {
+[[gnu::always_inline]] inline uint64_t keyOf(const VertexFeatures& f) {
   using enum VertexContext;
   Pack p;
   if constexpr (context == kPredicted) p.add(f.predicted, 5);
@@ -123,7 +129,7 @@ uint64_t keyOf(const VertexFeatures& f) {
     p.add(f.head_slots, 3).add(f.current_slots, 3).add(f.after_slots, 3).add(f.before_slots, 3);
   }
   if constexpr (context == kHistory) {
-    for (const uint8_t valence : f.history.valences) p.add(valence, 8);
+    p.add(f.history.valences, 24);
   }
   if constexpr (context == kSums) {
     p.add(f.head + f.current, 5).add(f.opposite, 4).add(f.opposite_head, 4).add(f.head_sum + f.current_sum, 5);
@@ -134,8 +140,7 @@ uint64_t keyOf(const VertexFeatures& f) {
   }
   if constexpr (context == kCurrentRing) p.add(f.current, 4).add(f.current_sum, 4).add(f.current_slots, 3);
   if constexpr (context == kDegrees) {
-    for (const uint8_t degree : f.history.degrees) p.add(degree, 8);
-    p.add(f.history.valences[0], 8);
+    p.add(f.history.degrees, 24).add(f.history.valences & 0xFF, 8);
   }
   if constexpr (context == kEndsAndSlots) {
     p.add(f.head, 4).add(f.current, 4).add(f.beyondCurrent(), 4).add(f.beyondHead(), 4);
@@ -161,7 +166,8 @@ struct FaceFeatures {
   uint64_t mean_sum;                          // excess of the neighbours' valences at both ends
   History history;
 
-  FaceFeatures(const FaceQuestion& q, const Gaps& gaps, const History& recent) : history(recent) {
+  [[gnu::always_inline]] FaceFeatures(const FaceQuestion& q, const Gaps& gaps, const History& recent)
+      : history(recent) {
     const auto at = [&](Index gap) -> const Gap& { return gap == kNone ? kNoGap : gaps[gap]; };
     const Gap &g0 = at(q.gap), &g1 = at(q.far_gap), &a = at(q.head), &b = at(q.tail), &prev = at(a.prev);
     known = std::min(q.known_edges, Index{15});
@@ -203,14 +209,14 @@ enum class FaceContext {
 };
 
 template <FaceContext context>
-uint64_t keyOf(const FaceFeatures& f) {
+[[gnu::always_inline]] inline uint64_t keyOf(const FaceFeatures& f) {
   using enum FaceContext;
   Pack p;
   if constexpr (context == kEnds) p.add(f.head, 4).add(f.tail, 4).add(f.known, 4);
   if constexpr (context == kNearAngle) {
     p.add(f.near_predicted, 5).add(std::min(f.near_slots, uint64_t{2}), 2).add(f.behind, 4);
   }
-  if constexpr (context == kHistory) p.add(f.history.degrees[0], 8).add(f.history.degrees[1], 8);
+  if constexpr (context == kHistory) p.add(f.history.degrees & 0xFFFF, 16);
   if constexpr (context == kAround) {
     p.add(f.head, 4).add(f.tail, 4).add(f.head_slots, 3).add(f.tail_slots, 3);
     p.add(f.behind, 4).add(f.behind_head, 4).add(f.known, 4);
@@ -224,7 +230,8 @@ uint64_t keyOf(const FaceFeatures& f) {
   if constexpr (context == kSlots) p.add(f.known, 4).add(f.head_slots, 3).add(f.tail_slots, 3).add(f.behind, 4);
   if constexpr (context == kBoth) {
     for (int i = 0; i < 3; ++i) {
-      p.add(std::min<uint64_t>(f.history.degrees[i], 127), 7).add(std::min<uint64_t>(f.history.valences[i], 127), 7);
+      p.add(std::min(f.history.degrees >> 8 * i & 0xFF, 127u), 7);
+      p.add(std::min(f.history.valences >> 8 * i & 0xFF, 127u), 7);
     }
   }
   if constexpr (context == kEdgeAndDegrees) {
@@ -236,7 +243,7 @@ uint64_t keyOf(const FaceFeatures& f) {
 
 /// Keys for a list of contexts.
 template <auto... contexts, class Features>
-std::array<uint64_t, sizeof...(contexts)> keysOf(const Features& features) {
+[[gnu::always_inline]] inline std::array<uint64_t, sizeof...(contexts)> keysOf(const Features& features) {
   return {keyOf<contexts>(features)...};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The decoder's run through a section, for decode() and for whoever wants to watch it.
 
+#include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,25 +18,16 @@
 
 namespace tutte {
 
-// Splits can make a face visit an umbrella twice, which no encoder writes.
-inline bool repeatsUmbrella(const Connectivity& mesh) {
-  std::vector<Index> last_face(mesh.umbrella_count, kNone);
-  Index corner = 0;
-  for (Index f = 0; f < mesh.face_degrees.size(); ++f) {
-    for (const Index end = corner + mesh.face_degrees[f]; corner < end; ++corner) {
-      Index& last = last_face[mesh.umbrellas[corner]];
-      if (last == f) return true;
-      last = f;
-    }
-  }
-  return false;
-}
-
 // A dual's faces are umbrellas, and its corners include those of dummy faces, which are no more than the others.
 inline Limits walkLimits(const SectionHeader& header, const Limits& limits) {
   if (!header.dual) return limits;
   const Index corners = limits.max_corners > kNone / 2 ? kNone : 2 * limits.max_corners;
   return {kNone, limits.max_corners, corners};
+}
+
+// Room for the corners of an irregular mesh. A regular mesh has more, but what a few bytes claim must not cost much.
+inline size_t expectedCorners(const SectionStreams& streams, const Limits& limits) {
+  return std::min<size_t>(limits.max_corners, 4096 + 64 * (streams.valences.size() + streams.degrees.size()));
 }
 
 /// The streams of a section, with the statistics that its header names. `Port`: RangeReader, or one that does more.
@@ -46,7 +38,9 @@ Result<Connectivity> decodeStreams(const SectionHeader& header, const SectionStr
   observer.open(valences, degrees);
   Blind oracle;
   Watched<Script<Statistics, Port, Blind>, Observer> script(observer, header, valences, degrees, oracle);
-  Walk walk(script, header.tie, header.leastDegree(), walkLimits(header, limits));
+  const Limits walk_limits = walkLimits(header, limits);
+  const size_t expected = expectedCorners(streams, walk_limits);
+  Walk walk(script, header.tie, header.leastDegree(), walk_limits, expected);
   if (const Error error = walk.run(); error != Error::kNone) return error;
   PrimalMesh primal{std::move(walk.connectivity()), {}, walk.onBoundary()};
   if (header.dual) {
@@ -55,7 +49,6 @@ Result<Connectivity> decodeStreams(const SectionHeader& header, const SectionStr
     primal = std::move(*turned);
   }
   Connectivity& mesh = primal.connectivity;
-  if (walk.splits() > 0 && repeatsUmbrella(mesh)) return Error::kMalformed;
   if (header.repairs) {
     const RepairNotes unknown;
     RepairCoder coder(valences, unknown, primal.on_boundary, limits, mesh);

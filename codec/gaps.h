@@ -6,7 +6,7 @@
 // split) owns several gaps. The gaps of one loop of the boundary are linked in the order in which an outside face
 // passes them.
 
-#include <array>
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <vector>
@@ -28,15 +28,14 @@ struct alignas(64) Gap {
                             ///< kNone behind a dummy face
   Index degree_behind = 0;  ///< that face's degree, 0 for a dummy face
   Index valence = 0;        ///< of the umbrella
+  int32_t flat = 0;         ///< flatAngle(valence)
   Index outside = kNone;    ///< encoder only: input corner whose edge is the leaving edge, in the face outside
-  Index queue_next = kNone;
-  Index queue_prev = kNone;
-  bool queued = false;  ///< in the boundary and not part of the current face
+  bool queued = false;      ///< in the boundary and not part of the current face
+  bool dummy = false;       ///< a dummy face touches the umbrella
 
-  // What the contexts want to know, gathered while the region grows.
-  bool dummy = false;               ///< a dummy face touches the umbrella
-  uint8_t opposite_next = 0;        ///< in the face behind: the valence (up to 14) of the vertex beyond the next gap's
-  uint8_t opposite_own = 0;         ///< in the face behind: the valence of the vertex beyond this gap's own
+  // What contexts want to know of the surroundings, gathered while the region grows, if the statistics ask for it.
+  uint16_t opposite_next = 0;       ///< in the face behind: the valence (up to 14) of the vertex beyond the next gap's
+  uint16_t opposite_own = 0;        ///< in the face behind: the valence of the vertex beyond this gap's own
   uint32_t neighbours = 0;          ///< edges of the umbrella seen by this gap
   uint32_t neighbour_valences = 0;  ///< sum of the valences (each up to 200) at their far ends
   uint32_t angle = 0;               ///< sum over the real faces around it of 1 - 2 / degree, in 1/65536
@@ -46,9 +45,9 @@ struct alignas(64) Gap {
 /// used again, last released first, so that both sides number alike.
 class Gaps {
  public:
-  explicit Gaps(TieRule tie) : tie_(tie) {
-    head_.fill(kNone);
-    tail_.fill(kNone);
+  explicit Gaps(TieRule tie) : oldest_first_(tie == TieRule::kOldestFirst), links_(kBuckets) {
+    for (Index bucket = 0; bucket < kBuckets; ++bucket) links_[bucket] = {bucket, bucket};
+    clear();
   }
 
   Gap& operator[](Index gap) { return records_[gap]; }
@@ -56,20 +55,17 @@ class Gaps {
 
   /// Forgets all gaps, so that numbers begin at 0 again. The boundary must be empty.
   void clear() {
-    records_.clear();
     free_ = kNone;
+    high_water_ = 0;
   }
 
   /// One more than the largest number given since clear().
-  Index highWater() const { return static_cast<Index>(records_.size()); }
+  Index highWater() const { return static_cast<Index>(high_water_); }
 
   /// A record that is in no list and no queue. Invalidates references.
   Index create() {
-    if (free_ == kNone) {
-      records_.emplace_back();
-      return highWater() - 1;
-    }
-    const Index gap = free_;
+    if (free_ == kNone) return extend();
+    const Index gap = static_cast<Index>(free_);
     free_ = records_[gap].next;
     records_[gap] = Gap{};
     return gap;
@@ -77,55 +73,65 @@ class Gaps {
 
   void release(Index gap) {
     records_[gap].free_slots = 0;
-    records_[gap].next = free_;
+    records_[gap].next = static_cast<Index>(free_);
     free_ = gap;
   }
 
-  /// A gap with the fewest free slots (64 and more count alike); kNone when the boundary is empty.
-  Index first() const { return used_ == 0 ? kNone : head_[std::countr_zero(used_)]; }
+  /// Takes the gap with the fewest free slots (64 and more count alike) out of the queue; kNone when it is empty.
+  Index pop() {
+    while (used_ != 0) {
+      const Index bucket = static_cast<Index>(std::countr_zero(used_));
+      const Index link = oldest_first_ ? links_[bucket].before : links_[bucket].after;
+      if (link != bucket) {
+        dequeue(link - kBuckets);
+        return link - kBuckets;
+      }
+      used_ &= used_ - 1;
+    }
+    return kNone;
+  }
 
   void enqueue(Index gap) {
-    const int bucket = bucketOf(gap);
-    if (tie_ == TieRule::kOldestFirst) {
-      place(gap, tail_[bucket], kNone, bucket);
-    } else {
-      place(gap, kNone, head_[bucket], bucket);
-    }
+    const Index slots = records_[gap].free_slots, bucket = slots < kBuckets ? slots : kBuckets - 1;
+    const Index link = gap + kBuckets, after = links_[bucket].after;
+    links_[link].after = after;
+    links_[link].before = bucket;
+    links_[bucket].after = link;
+    links_[after].before = link;
     used_ |= uint64_t{1} << bucket;
     records_[gap].queued = true;
   }
 
-  /// Must be called before the gap's free slots change.
   void dequeue(Index gap) {
-    const int bucket = bucketOf(gap);
-    Gap& record = records_[gap];
-    record.queued = false;
-    (record.queue_prev == kNone ? head_[bucket] : records_[record.queue_prev].queue_next) = record.queue_next;
-    (record.queue_next == kNone ? tail_[bucket] : records_[record.queue_next].queue_prev) = record.queue_prev;
-    if (head_[bucket] == kNone) used_ &= ~(uint64_t{1} << bucket);
+    const Index after = links_[gap + kBuckets].after, before = links_[gap + kBuckets].before;
+    links_[before].after = after;
+    links_[after].before = before;
+    records_[gap].queued = false;
   }
 
  private:
-  static constexpr int kBuckets = 64;
+  static constexpr Index kBuckets = 64;
 
-  int bucketOf(Index gap) const {
-    const Index slots = records_[gap].free_slots;
-    return static_cast<int>(slots < kBuckets ? slots : kBuckets - 1);
+  /// Of the queue, newest first: each bucket is a ring through its end. First come the ends, then the gaps.
+  struct Link {
+    Index after, before;
+  };
+
+  [[gnu::noinline]] Index extend() {
+    if (high_water_ == records_.size()) {
+      records_.resize(std::max<size_t>(64, 2 * high_water_));
+      links_.resize(records_.size() + kBuckets);
+    }
+    records_[high_water_] = Gap{};
+    return static_cast<Index>(high_water_++);
   }
 
-  void place(Index gap, Index before, Index after, int bucket) {
-    records_[gap].queue_prev = before;
-    records_[gap].queue_next = after;
-    (before == kNone ? head_[bucket] : records_[before].queue_next) = gap;
-    (after == kNone ? tail_[bucket] : records_[after].queue_prev) = gap;
-  }
-
-  TieRule tie_;
-  uint64_t used_ = 0;
-  std::array<Index, kBuckets> head_;
-  std::array<Index, kBuckets> tail_;
-  Index free_ = kNone;
+  // None of these is an Index: so compilers know that what is written to records leaves them as they are.
+  bool oldest_first_;
+  uint64_t used_ = 0;  // buckets that may hold gaps
+  size_t free_ = kNone, high_water_ = 0;
   std::vector<Gap> records_;
+  std::vector<Link> links_;
 };
 
 }  // namespace tutte

@@ -1,6 +1,8 @@
 #pragma once
 // Predicts that what followed the last few symbols before will follow them again.
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,12 +24,7 @@ class MatchModel {
   Index expected() const { return length_ == 0 ? kNoSymbol : history_[position_]; }
 
   /// How far the match reaches back, in 8 steps; 0 without a match.
-  int lengthClass() const {
-    constexpr int kSteps[] = {1, 8, 12, 16, 24, 32, 64};
-    int step = 0;
-    while (step < 7 && length_ >= kSteps[step]) ++step;
-    return step;
-  }
+  int lengthClass() const { return kLengthClass[std::min(length_, kLongest)]; }
 
   /// The slot of the opinion that a decision goes the way the expected symbol says.
   Slot& opinion(bool expected_bit) { return slots_[lengthClass() * 2 + expected_bit]; }
@@ -40,12 +37,13 @@ class MatchModel {
     } else {
       length_ = 0;
     }
-    history_.push_back(static_cast<uint8_t>(symbol));
+    if (size_ == history_.size()) history_.resize(std::max<size_t>(256, 2 * size_));
+    history_[size_++] = static_cast<uint8_t>(symbol);
     key_ = (key_ << 8 | (symbol + 1)) & 0xFFFFFFFFFFFFu;
-    if (history_.size() < kLeast) return;
+    if (size_ < kLeast) return;
     Index& latest = positions_[key_ * 0x9E3779B97F4A7C15u >> (64 - kTableBits)];
     if (length_ == 0 && latest != 0) find(latest);
-    latest = static_cast<Index>(history_.size());
+    latest = static_cast<Index>(size_);
   }
 
  private:
@@ -53,7 +51,7 @@ class MatchModel {
   static constexpr int kLeast = 6, kMost = 32;
 
   void find(Index candidate) {
-    const size_t end = history_.size();
+    const size_t end = size_;
     int length = 0;
     while (length < kMost && static_cast<Index>(length) < candidate &&
            history_[candidate - 1 - length] == history_[end - 1 - length]) {
@@ -64,11 +62,22 @@ class MatchModel {
     length_ = length;
   }
 
+  // By the length of the match.
+  static constexpr int kLongest = 64;
+  static constexpr std::array<uint8_t, kLongest + 1> kLengthClass = [] {
+    std::array<uint8_t, kLongest + 1> classes{};
+    for (const int step : {1, 8, 12, 16, 24, 32, 64}) {
+      for (int length = step; length <= kLongest; ++length) ++classes[length];
+    }
+    return classes;
+  }();
+
   bool used_;
   uint64_t key_ = 0;
   Index position_ = 0;
   int length_ = 0;
-  std::vector<uint8_t> history_;
+  std::vector<uint8_t> history_;  // the first size_ are in use
+  size_t size_ = 0;
   std::vector<Index> positions_;
   std::array<Slot, 16> slots_;
 };

@@ -1,19 +1,16 @@
 #pragma once
 // Logistic mixing: several adaptive probabilities of one binary decision become one, with weights that learn which of
-// them to trust. 16-bit integers, eight at a time; the vector code and the scalar code give the same bits.
+// them to trust. 16-bit integers, eight at a time.
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "codec/lanes.h"
 #include "codec/logistic.h"
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#elif defined(__wasm_simd128__)
-#include <wasm_simd128.h>
-#endif
 
 namespace tutte {
 
@@ -22,7 +19,6 @@ class Slot {
  public:
   int16_t stretched() const { return logistic::kStretch4[word_ >> 20]; }
   uint32_t probability() const { return word_ >> 16; }
-  uint32_t seen() const { return word_ & 0xFFFF; }
 
   void update(bool bit) {
     const uint32_t seen = word_ & 0xFFFF;
@@ -43,61 +39,41 @@ class Slot {
   uint32_t word_ = 0x80000000u;
 };
 
-/// `kInputs` weights (a multiple of 8), 16384 standing for 1.
+/// `kInputs` (a multiple of 8) stretched probabilities, each times 4.
 template <int kInputs>
-struct alignas(16) Lanes {
-  std::array<int16_t, kInputs> lane{};
+class Inputs {
+ public:
+  explicit Inputs(const std::array<int16_t, kInputs>& inputs)
+      : Inputs(inputs, std::make_index_sequence<kInputs / 8>()) {}
 
-  /// Sum of products, modulo 2^32.
-  int32_t dot(const Lanes& other) const {
-#if defined(__SSE2__)
-    __m128i sum = _mm_setzero_si128();
-    for (int i = 0; i < kInputs; i += 8) sum = _mm_add_epi32(sum, _mm_madd_epi16(load(i), other.load(i)));
-    sum = _mm_add_epi32(sum, _mm_shuffle_epi32(sum, 0x4E));
-    sum = _mm_add_epi32(sum, _mm_shuffle_epi32(sum, 0xB1));
-    return _mm_cvtsi128_si32(sum);
-#elif defined(__wasm_simd128__)
-    v128_t sum = wasm_i32x4_splat(0);
-    for (int i = 0; i < kInputs; i += 8) sum = wasm_i32x4_add(sum, wasm_i32x4_dot_i16x8(load(i), other.load(i)));
-    return wasm_i32x4_extract_lane(sum, 0) + wasm_i32x4_extract_lane(sum, 1) + wasm_i32x4_extract_lane(sum, 2) +
-           wasm_i32x4_extract_lane(sum, 3);
-#else
-    uint32_t sum = 0;  // wraps as vectors do, where damaged input makes it
-    for (int i = 0; i < kInputs; ++i) sum += static_cast<uint32_t>(lane[i] * other.lane[i]);
-    return static_cast<int32_t>(sum);
-#endif
-  }
-
-  /// Adds input * rate / 32768, rounded, to every lane, within 16 bits.
-  void learn(const Lanes& input, int16_t rate) {
-#if defined(__SSE2__)
-    const __m128i rates = _mm_set1_epi16(rate), one = _mm_set1_epi16(1);
-    for (int i = 0; i < kInputs; i += 8) {
-      const __m128i in = input.load(i);
-      const __m128i high = _mm_mulhi_epi16(in, rates), low = _mm_mullo_epi16(in, rates);
-      const __m128i rounded = _mm_srli_epi16(_mm_add_epi16(_mm_srli_epi16(low, 14), one), 1);
-      const __m128i step = _mm_add_epi16(_mm_slli_epi16(high, 1), rounded);
-      _mm_store_si128(reinterpret_cast<__m128i*>(&lane[i]), _mm_adds_epi16(load(i), step));
-    }
-#elif defined(__wasm_simd128__)
-    const v128_t rates = wasm_i16x8_splat(rate);
-    for (int i = 0; i < kInputs; i += 8) {
-      wasm_v128_store(&lane[i], wasm_i16x8_add_sat(load(i), wasm_i16x8_q15mulr_sat(input.load(i), rates)));
-    }
-#else
-    for (int i = 0; i < kInputs; ++i) {
-      const int32_t sum = lane[i] + ((input.lane[i] * rate + 0x4000) >> 15);
-      lane[i] = static_cast<int16_t>(std::clamp(sum, -32768, 32767));
-    }
-#endif
-  }
+  Lanes operator[](size_t i) const { return lanes_[i]; }
 
  private:
-#if defined(__SSE2__)
-  __m128i load(int i) const { return _mm_load_si128(reinterpret_cast<const __m128i*>(&lane[i])); }
-#elif defined(__wasm_simd128__)
-  v128_t load(int i) const { return wasm_v128_load(&lane[i]); }
-#endif
+  template <size_t... i>
+  Inputs(const std::array<int16_t, kInputs>& in, std::index_sequence<i...>)
+      : lanes_{Lanes({in[8 * i], in[8 * i + 1], in[8 * i + 2], in[8 * i + 3], in[8 * i + 4], in[8 * i + 5],
+                      in[8 * i + 6], in[8 * i + 7]})...} {}
+
+  std::array<Lanes, kInputs / 8> lanes_;
+};
+
+/// As many weights, 16384 standing for 1.
+template <int kInputs>
+struct alignas(16) Weights {
+  std::array<int16_t, kInputs> weight{};
+
+  /// What the inputs say together: a stretched probability.
+  int32_t mix(const Inputs<kInputs>& inputs) const {
+    Lanes::Sums sums = Lanes::load(&weight[0]).times(inputs[0]);
+    for (int i = 1; i < kInputs / 8; ++i) sums = sums + Lanes::load(&weight[8 * i]).times(inputs[i]);
+    return std::clamp(sums.total() >> 16, -2047, 2047);
+  }
+
+  /// Adds input * rate / 32768, rounded, to every weight, within 16 bits.
+  void learn(const Inputs<kInputs>& inputs, int16_t rate) {
+    for (int i = 0; i < kInputs / 8; ++i)
+      Lanes::load(&weight[8 * i]).plusProduct(inputs[i], rate).store(&weight[8 * i]);
+  }
 };
 
 /// The learning rate of a stream's weights: high at first, falling with the number of decisions.

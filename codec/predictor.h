@@ -4,9 +4,11 @@
 // A symbol is coded as a few decisions, its *nodes*. Before its first decision, every context of the symbol is hashed
 // to a *line* of 16 slots, one per node; lines may collide, which costs a little compression and nothing else.
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <utility>
 #include <vector>
 
 #include "codec/mixer.h"
@@ -40,8 +42,8 @@ class Predictor {
   explicit Predictor(int table_bits)
       : shift_(64 - table_bits), table_lines_(size_t{1} << table_bits), lines_(table_lines_ * kContexts) {
     if constexpr (!kMixes) return;
-    Lanes<kInputs> initial;
-    initial.lane.fill(static_cast<int16_t>(std::min(27 * 16384 / 100, 189 * 16384 / (100 * (kContexts + 1)))));
+    Weights<kInputs> initial;
+    initial.weight.fill(static_cast<int16_t>(std::min(27 * 16384 / 100, 189 * 16384 / (100 * (kContexts + 1)))));
     by_node_.assign(kNodes, initial);
     if constexpr (kRich) {
       by_situation_.assign(kSituations, initial);
@@ -50,68 +52,72 @@ class Predictor {
   }
 
   /// Selects the lines for a symbol.
-  void enter(const std::array<uint64_t, kContexts>& keys) {
-    for (int i = 0; i < kContexts; ++i) {
-      line_[i] = &lines_[table_lines_ * i + (keys[i] * 0x9E3779B97F4A7C15u >> shift_)];
+  [[gnu::always_inline]] void enter(const std::array<uint64_t, kContexts>& keys) {
+    Line* table = lines_.data();
+    for (int i = 0; i < kContexts; ++i, table += table_lines_) {
+      line_[i] = &table[keys[i] * 0x9E3779B97F4A7C15u >> shift_];
     }
   }
 
   /// Codes one decision. `match`: a slot that has its own opinion, or null; `match_length` 0 to 7.
   template <class Port>
   bool code(Port& port, const Selectors& selectors, Slot* match, int match_length, bool value) {
+    return codeOver(port, selectors, match, match_length, value, std::make_index_sequence<kContexts>());
+  }
+
+ private:
+  template <class Port, size_t... i>
+  [[gnu::always_inline]] bool codeOver(Port& port, const Selectors& selectors, Slot* match, int match_length,
+                                       bool value, std::index_sequence<i...>) {
     if constexpr (!kMixes) {
       Slot& slot = line_[0]->slot[selectors.node];
       const bool bit = port.code(std::clamp(slot.probability(), 16u, 65520u), value);
       slot.update(bit);
       return bit;
     } else {
-      for (int i = 0; i < kContexts; ++i) inputs_.lane[i] = line_[i]->slot[selectors.node].stretched();
-      if (match)
-        inputs_.lane[kContexts] = match->stretched();
-      else
-        inputs_.lane[kContexts] = 0;
-      const bool bit = mixAndCode(port, selectors, match_length, value);
-      for (int i = 0; i < kContexts; ++i) line_[i]->slot[selectors.node].update(bit);
+      const int16_t matched = match ? match->stretched() : int16_t{0};
+      const Inputs<kInputs> inputs({line_[i]->slot[selectors.node].stretched()..., matched});
+      const bool bit = kRich ? codeRich(port, selectors, inputs, match_length, value)
+                             : codePlain(port, by_node_[selectors.node], inputs, value);
+      (line_[i]->slot[selectors.node].update(bit), ...);
       if (match) match->update(bit);
       return bit;
     }
   }
 
- private:
   template <class Port>
-  bool mixAndCode(Port& port, const Selectors& selectors, int match_length, bool value) {
-    if constexpr (!kRich) {
-      Lanes<kInputs>& weights = by_node_[selectors.node];
-      const uint32_t mixed = squash(mix(weights));
-      const bool bit = port.code(mixed, value);
-      rate_.advance();
-      weights.learn(inputs_, rate_.step((bit << 16) - static_cast<int32_t>(mixed)));
-      return bit;
-    } else {
-      Lanes<kInputs>* const sets[3] = {&by_node_[selectors.node], &by_situation_[selectors.situation],
-                                       &by_match_[match_length]};
-      const int32_t opinions[3] = {mix(*sets[0]), mix(*sets[1]), mix(*sets[2])};
-      const int32_t average = (opinions[0] + opinions[1] + opinions[2]) * 21845 >> 16;
-      const uint32_t refined = final_.refine(selectors.node, average);
-      const uint32_t mixed = std::clamp((squash(average) + refined + 1) >> 1, 2u, 65534u);
-      const bool bit = port.code(mixed, value);
-      rate_.advance();
-      for (int i = 0; i < 3; ++i) {
-        sets[i]->learn(inputs_, rate_.step((bit << 16) - static_cast<int32_t>(squash(opinions[i]))));
-      }
-      final_.update(bit);
-      return bit;
-    }
+  [[gnu::always_inline]] bool codePlain(Port& port, Weights<kInputs>& weights, const Inputs<kInputs>& inputs,
+                                        bool value) {
+    const uint32_t mixed = squash(weights.mix(inputs));
+    const bool bit = port.code(mixed, value);
+    rate_.advance();
+    weights.learn(inputs, rate_.step((bit << 16) - static_cast<int32_t>(mixed)));
+    return bit;
   }
 
-  int32_t mix(const Lanes<kInputs>& weights) const { return std::clamp(weights.dot(inputs_) >> 16, -2047, 2047); }
+  template <class Port>
+  [[gnu::always_inline]] bool codeRich(Port& port, const Selectors& selectors, const Inputs<kInputs>& inputs,
+                                       int match_length, bool value) {
+    Weights<kInputs>* const sets[3] = {&by_node_[selectors.node], &by_situation_[selectors.situation],
+                                       &by_match_[match_length]};
+    const int32_t opinions[3] = {sets[0]->mix(inputs), sets[1]->mix(inputs), sets[2]->mix(inputs)};
+    const int32_t average = (opinions[0] + opinions[1] + opinions[2]) * 21845 >> 16;
+    const uint32_t refined = final_.refine(selectors.node, average);
+    const uint32_t mixed = std::clamp((squash(average) + refined + 1) >> 1, 2u, 65534u);
+    const bool bit = port.code(mixed, value);
+    rate_.advance();
+    for (int i = 0; i < 3; ++i) {
+      sets[i]->learn(inputs, rate_.step((bit << 16) - static_cast<int32_t>(squash(opinions[i]))));
+    }
+    final_.update(bit);
+    return bit;
+  }
 
   int shift_;
   size_t table_lines_;
   std::vector<Line> lines_;
   std::array<Line*, kContexts> line_{};
-  Lanes<kInputs> inputs_;
-  std::vector<Lanes<kInputs>> by_node_, by_situation_, by_match_;
+  std::vector<Weights<kInputs>> by_node_, by_situation_, by_match_;
   LearningRate rate_;
   FinalMap final_{kRich ? kNodes : 0};
 };

@@ -35,6 +35,8 @@ struct Blind {
 template <class Statistics, class Port, class Oracle>
 class Script {
  public:
+  static constexpr bool kGathers = Statistics::kGathers;
+
   Script(const SectionHeader& header, Port& valences, Port& degrees, Oracle& oracle)
       : header_(header),
         statistics_(header),

@@ -17,7 +17,7 @@ template <auto... contexts>
 struct ContextList {
   static constexpr int kCount = sizeof...(contexts);
   template <class Features>
-  static std::array<uint64_t, kCount> keys(const Features& features) {
+  [[gnu::always_inline]] static std::array<uint64_t, kCount> keys(const Features& features) {
     return keysOf<contexts...>(features);
   }
 };
@@ -74,6 +74,8 @@ class UsualValence {
 template <class Profile>
 class MixedStatistics {
  public:
+  static constexpr bool kGathers = Profile::Vertex::kCount > 1;
+
   explicit MixedStatistics(const SectionHeader& header)
       : header_(header),
         vertices_(header.table_bits),
@@ -82,7 +84,6 @@ class MixedStatistics {
 
   template <class Port>
   FaceAnswer face(Port& port, const FaceQuestion& question, const Gaps& gaps, const FaceAnswer& truth) {
-    contradicted_ = false;
     const FaceAnswer answer = codeFace(port, question, gaps, truth);
     history_.addDegree(answer.dummy ? 1 : answer.degree);
     if (!header_.degreesKnown()) match_.add(128 + (answer.dummy ? 1 : std::min(answer.degree, Index{100})));
@@ -93,17 +94,17 @@ class MixedStatistics {
   Index vertex(Port& port, const VertexQuestion& question, const Gaps& gaps, Index truth) {
     const Index face = question.face.dummy ? 1 : std::min(question.face.degree, Index{15});
     const Index usual = usual_.of(face);
-    const VertexFeatures features(question, gaps, usual, history_);
-    vertices_.enter(Profile::Vertex::keys(features));
-    contradicted_ = false;
-    const int situation =
-        static_cast<int>(std::min(face, Index{15}) * 4 + (question.missing > 1) * 2 + (question.index > 0));
-    const bool seed = question.head == kNone;
-    const auto decide = [&](int node, int step, Index asked, bool value) {
-      // `asked` is what the decision asks about; the matched symbol answers it, if it can.
-      return this->decide(port, vertices_, {node, situation + 64 * step}, asked, value);
+    vertices_.enter(Profile::Vertex::keys(VertexFeatures(question, gaps, usual, history_)));
+    const Index expected = match_.expected();
+    expected_ = expected < 128 ? expected : MatchModel::kNoSymbol;
+    const int situation = static_cast<int>(face * 4 + (question.missing > 1) * 2 + (question.index > 0));
+    const auto decide = [&](int node, int step, bool matched, bool value) {
+      return this->decide(port, vertices_, {node, situation + 64 * step}, matched, value);
     };
-    const Index valence = codeValence(port, usual, seed, truth, decide);
+    const bool seed = question.head == kNone;
+    const Index valence = decide(0, 0, expected == usual, truth == usual)
+                              ? usual
+                              : codeUnusual(port, usual, seed, truth, expected, decide);
     usual_.add(face, valence);
     history_.addValence(valence);
     match_.add(std::min(valence, Index{100}));
@@ -115,30 +116,34 @@ class MixedStatistics {
 
   template <class Port>
   FaceAnswer codeFace(Port& port, const FaceQuestion& question, const Gaps& gaps, const FaceAnswer& truth) {
-    FaceAnswer answer{question.closed ? question.known_edges : header_.uniform_degree, false};
-    const bool degree_known = answer.degree != 0;
+    const Index known = question.closed ? question.known_edges : header_.uniform_degree;
     const bool may_be_dummy = header_.hasDummyFaces() && question.gap != kNone && !touchesDummy(question, gaps);
-    if (degree_known && !may_be_dummy) return answer;
+    if (known != 0 && !may_be_dummy) return {known, false};
+    return codeUnknownFace(port, question, gaps, truth, known, may_be_dummy);
+  }
+
+  // `known`: its degree, or 0.
+  template <class Port>
+  FaceAnswer codeUnknownFace(Port& port, const FaceQuestion& question, const Gaps& gaps, const FaceAnswer& truth,
+                             Index known, bool may_be_dummy) {
     const FaceFeatures features(question, gaps, history_);
     faces_.enter(Profile::Face::keys(features));
+    const Index symbol = match_.expected(), expected = symbol - 128;
+    expected_ = symbol >= 128 ? symbol : MatchModel::kNoSymbol;
     const int situation =
         static_cast<int>(features.behind * 3 + std::min<uint64_t>(features.known, 3) - (features.known > 0));
-    if (may_be_dummy) {
-      port.about(Topic::kHoles);
-      answer.dummy = decide(port, faces_, {0, situation}, kAskDummy, truth.dummy);
-      if (answer.dummy) {
-        if (!question.closed) answer.degree = 3 + dummy_degree_.code(port, truth.degree - 3);
-        return answer;
-      }
+    port.about(Topic::kHoles);
+    if (may_be_dummy && decide(port, faces_, {0, situation}, expected == 1, truth.dummy)) {
+      return {question.closed ? known : 3 + dummy_degree_.code(port, truth.degree - 3), true};
     }
-    if (degree_known) return answer;
+    if (known != 0) return {known, false};
     port.about(Topic::kDegrees);
     const Index least = std::max(header_.leastDegree(), question.known_edges + 1);
     Index degree = least;
     for (; degree < least + kLongest - 4; ++degree) {
       const int node = static_cast<int>(std::min(degree - 2, Index{kNodes - 1}));
       const int step = static_cast<int>(1 + std::min(degree - least, Index{2}));
-      if (decide(port, faces_, {node, situation + 64 * step}, kAskDegree + degree, truth.degree == degree)) {
+      if (decide(port, faces_, {node, situation + 64 * step}, expected == degree, truth.degree == degree)) {
         return {degree, false};
       }
     }
@@ -146,41 +151,33 @@ class MixedStatistics {
   }
 
   template <class Port, class Decide>
-  Index codeValence(Port& port, Index usual, bool seed, Index truth, Decide&& decide) {
-    if (decide(0, 0, usual, truth == usual)) return usual;
-    if (decide(1, 1, kAskBelow + usual, truth < usual)) {
+  [[gnu::noinline]] Index codeUnusual(Port& port, Index usual, bool seed, Index truth, Index expected,
+                                      Decide&& decide) {
+    if (decide(1, 1, expected < usual, truth < usual)) {
       for (Index v = usual - 1; v >= 3; --v) {
-        if (decide(static_cast<int>(std::min(1 + usual - v, Index{6})), 2, v, truth == v)) return v;
+        if (decide(static_cast<int>(std::min(1 + usual - v, Index{6})), 2, expected == v, truth == v)) return v;
       }
-      return seed || decide(7, 3, 2, truth == 2) ? 2 : 0;
+      return seed || decide(7, 3, expected == 2, truth == 2) ? 2 : 0;
     }
     Index v = usual + 1;
     for (; v <= usual + kLongest; ++v) {
-      if (decide(static_cast<int>(std::min(7 + v - usual, Index{kNodes - 1})), 4, v, truth == v)) return v;
+      const int node = static_cast<int>(std::min(7 + v - usual, Index{kNodes - 1}));
+      if (decide(node, 4, expected == v, truth == v)) return v;
     }
     return v + large_valence_.code(port, truth - v);
   }
 
-  // What a decision asks: about a valence itself, or one of these.
-  static constexpr Index kAskBelow = 1000, kAskDegree = 2000, kAskDummy = 3000;
-
-  // What the match says to a decision: 0, 1, or 2 for nothing.
-  int matchedAnswer(Index asked) const {
-    const Index expected = match_.expected();
-    if (expected == MatchModel::kNoSymbol) return 2;
-    if (asked == kAskDummy) return expected < 128 ? 2 : expected == 129;
-    if (asked >= kAskDegree) return expected < 128 ? 2 : expected == 128 + asked - kAskDegree;
-    if (expected >= 128) return 2;
-    if (asked >= kAskBelow) return expected < asked - kAskBelow;
-    return expected == asked;
+  // `matched`: what the expected symbol, if there is one, says to the decision.
+  template <class Port, class Stream>
+  [[gnu::always_inline]] bool decide(Port& port, Stream& stream, const Selectors& selectors, bool matched, bool value) {
+    if (!Stream::kMixes || expected_ == MatchModel::kNoSymbol) return stream.code(port, selectors, nullptr, 0, value);
+    return decideMatched(port, stream, selectors, matched, value);
   }
 
   template <class Port, class Stream>
-  bool decide(Port& port, Stream& stream, const Selectors& selectors, Index asked, bool value) {
-    const int answer = contradicted_ ? 2 : matchedAnswer(asked);
-    Slot* opinion = answer == 2 ? nullptr : &match_.opinion(answer);
-    const bool bit = stream.code(port, selectors, opinion, opinion ? match_.lengthClass() : 0, value);
-    if (answer != 2 && bit != answer) contradicted_ = true;
+  bool decideMatched(Port& port, Stream& stream, const Selectors& selectors, bool matched, bool value) {
+    const bool bit = stream.code(port, selectors, &match_.opinion(matched), match_.lengthClass(), value);
+    if (bit != matched) expected_ = MatchModel::kNoSymbol;
     return bit;
   }
 
@@ -196,7 +193,8 @@ class MixedStatistics {
   History history_;
   UsualValence usual_;
   NumberModel large_valence_, large_degree_, dummy_degree_;
-  bool contradicted_ = false;
+  Index expected_ =
+      MatchModel::kNoSymbol;  // what the match expects of the current symbol, until a decision contradicts it
 };
 
 }  // namespace tutte

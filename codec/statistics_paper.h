@@ -28,15 +28,17 @@ inline Index paperVertexContext(const VertexQuestion& question) {
   const Index degree = question.face.dummy ? 0 : question.face.degree;
   if (degree == 5) return 1;
   if (degree != 3 && degree != 4) return 0;
-  const uint64_t regular = uint64_t{question.known_vertices} * (degree == 3 ? 6 : 4);
+  const uint64_t regular = uint64_t{question.knownVertices()} * (degree == 3 ? 6 : 4);
   const uint64_t sum = question.valence_sum;
   return (degree == 3 ? 3 : 6) + (sum > regular) - (sum < regular);
 }
 
 /// What a Statistics class offers: coding of one symbol, given the truth (in the encoder) and a port. Degrees that
-/// are known (header) are not coded.
+/// are known (header) are not coded. kGathers: it reads what gaps gather of their surroundings.
 class PaperStatistics {
  public:
+  static constexpr bool kGathers = false;
+
   explicit PaperStatistics(const SectionHeader& header) : header_(header) {}
 
   template <class Port>

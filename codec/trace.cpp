@@ -39,7 +39,7 @@ class Tracer : public Unwatched {
     TraceEvent event = start(TraceEvent::Kind::kVertex);
     event.valence = valence;
     event.missing = question.missing;
-    event.known_vertices = question.known_vertices;
+    event.known_vertices = question.knownVertices();
     event.valence_sum = question.valence_sum;
     sink_(event);
     ++umbrellas_;

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "codec/appender.h"
 #include "codec/gaps.h"
 #include "codec/mesh.h"
 #include "codec/result.h"
@@ -44,10 +45,11 @@ struct VertexQuestion {
   Index current = kNone;      ///< the vertex before this one; kNone for the first vertex of a component
   Index before_tail = kNone;  ///< the vertex before the first missing one's predecessor; kNone likewise
   Index index = 0;            ///< missing vertices of the face that were coded before
-  Index known_vertices = 0;   ///< vertices of the face that are known by now
-  uint64_t valence_sum = 0;   ///< sum of their valences
-  int64_t angle = 0;          ///< sum over them of 1 - 2 / valence, in 1/65536
   Index missing = 0;          ///< vertices of the face that are still missing, this one included
+  uint64_t valence_sum = 0;   ///< sum of the valences of those that are known
+  int64_t angle = 0;          ///< sum over them of 1 - 2 / valence, in 1/65536
+
+  Index knownVertices() const { return face.degree - missing; }
 };
 
 /// A missing vertex. In the dual of a mesh with holes it may stand for a dummy face.
@@ -63,14 +65,15 @@ struct SplitAnswer {
   Index slots_after = 0;
 };
 
+inline constexpr std::array<int32_t, 64> kFlatAngles = [] {
+  std::array<int32_t, 64> table{};
+  for (int i = 1; i < 64; ++i) table[i] = 65536 - 131072 / i;
+  return table;
+}();
+
 /// The angle of a regular polygon with `sides` sides, as a fraction of a half turn in 1/65536: 1 - 2 / sides.
 inline int32_t flatAngle(Index sides) {
-  constexpr auto kTable = [] {
-    std::array<int32_t, 64> table{};
-    for (int i = 1; i < 64; ++i) table[i] = 65536 - 131072 / i;
-    return table;
-  }();
-  return sides < 64 ? kTable[sides] : 65536 - static_cast<int32_t>(131072 / sides);
+  return sides < kFlatAngles.size() ? kFlatAngles[sides] : 65536 - static_cast<int32_t>(131072 / sides);
 }
 
 /// Runs a script to a mesh. A Script offers
@@ -78,6 +81,7 @@ inline int32_t flatAngle(Index sides) {
 ///   FaceAnswer face(const FaceQuestion&, const Gaps&)
 ///   VertexAnswer vertex(const VertexQuestion&, const Gaps&)
 ///   SplitAnswer split(const VertexQuestion&, const Gaps&)
+///   static constexpr bool kGathers                  do its answers depend on what Gap gathers of the surroundings?
 ///   Error fault()                                   why the input cannot go on; kNone while it can
 /// and follows, where it stands on an input mesh, the position of the walk:
 ///   void seed()            before the first face of a component
@@ -87,18 +91,29 @@ inline int32_t flatAngle(Index sides) {
 template <class Script>
 class Walk {
  public:
-  /// `least_degree`: 3, or 2 for a dual, where a valence of 2 is a degree.
-  Walk(Script& script, TieRule tie, Index least_degree, const Limits& limits)
-      : script_(script), gaps_(tie), least_degree_(least_degree), limits_(limits) {}
+  /// `least_degree`: 3, or 2 for a dual, where a valence of 2 is a degree. `expected_corners`: room that is reserved
+  /// at once; there may be more or less.
+  Walk(Script& script, TieRule tie, Index least_degree, const Limits& limits, size_t expected_corners)
+      : script_(script),
+        gaps_(tie),
+        least_degree_(least_degree),
+        limits_(limits),
+        degrees_(mesh_.face_degrees, expected_corners / 3),
+        corners_(mesh_, expected_corners) {}
+  Walk(const Walk&) = delete;
+  Walk& operator=(const Walk&) = delete;
 
   /// Builds all components. O(corners). Fails only on damaged input or exceeded limits.
   Error run() {
     Error error = Error::kNone;
     while (error == Error::kNone && script_.component()) {
       error = seed();
-      for (Index gap; error == Error::kNone && (gap = gaps_.first()) != kNone;) error = attach(gap);
+      for (Index gap; error == Error::kNone && (gap = gaps_.pop()) != kNone;) error = attach(gap);
     }
-    mesh_.vertex_count = mesh_.umbrella_count;
+    degrees_.finish();
+    corners_.finish();
+    on_boundary_.resize(umbrellas_);
+    mesh_.vertex_count = mesh_.umbrella_count = static_cast<Index>(umbrellas_);
     return error;
   }
 
@@ -112,142 +127,164 @@ class Walk {
   const std::vector<uint8_t>& onBoundary() const { return on_boundary_; }
 
  private:
+  // The face that is being attached, while it is. A local variable: the inner loop keeps its fields in registers.
+  struct Current {
+    VertexQuestion question;
+    Index tail = kNone;           // where the face's stretch of the boundary begins, a split's rest if there was one
+    uint16_t before_valence = 0;  // of the vertex before question.current in the face, up to 14
+    bool is_new = false;          // question.current's leaving edge belongs to the face
+    Error error = Error::kNone;
+  };
+
   // The first face of a component. All its vertices are new.
   Error seed() {
     gaps_.clear();
     script_.seed();
-    question_ = {};
-    question_.face = script_.face({}, gaps_);
-    if (question_.face.dummy) return Error::kMalformed;
-    if (const Error error = openFace(0); error != Error::kNone) return error;
-    touched_.clear();
-    question_.missing = question_.face.degree;
-    before_valence_ = 0;
-    current_is_new_ = false;
-    Index current = kNone;
-    while (question_.missing > 0) {
-      const VertexAnswer vertex = script_.vertex(question_, gaps_);
-      if (const Error fault = script_.fault(); fault != Error::kNone) return fault;
-      if (vertex.valence == 0) return Error::kMalformed;
+    Current current;
+    const FaceAnswer face = script_.face({}, gaps_);
+    if (face.dummy) return Error::kMalformed;
+    if (const Error error = openFace(face, 0); error != Error::kNone) return error;
+    current.question.face = face;
+    current.question.missing = face.degree;
+    while (current.question.missing > 0) {
+      const VertexAnswer vertex = script_.vertex(current.question, gaps_);
       if (const Error error = addVertex(vertex, current); error != Error::kNone) return error;
+      if (current.tail == kNone) current.tail = current.question.current;
     }
-    closeBoundary(touched_.front(), current, corner_ - 1);
-    requeue();
+    closeBoundary(current.tail, current.question.current, corners_.size() - 1, current.before_valence, face);
+    requeue(current.tail, current.question.current, face);
     return Error::kNone;
   }
 
-  // One more face, along the edge that leaves `start`.
-  Error attach(Index start) {
-    const Index second = gaps_[start].next;
+  // One more face, along the edge that leaves `start`, which is out of the queue.
+  Error attach(const Index start) {
     script_.start(gaps_[start]);
-    question_ = {};
-    ahead_.clear();
-    behind_.clear();
-    touched_.clear();
-    if (!take(start) || !take(second)) return Error::kMalformed;
-    Index head = start, tail = second;
+    Current current;
+    const Index second = gaps_[start].next;
+    --gaps_[start].free_slots;
+    know(gaps_[start], current);
+    if (!take(second, current)) return Error::kMalformed;
+    Index head = start, tail = second, edges = 1;
     bool closed = false;
-    if (!findEnds(head, tail, closed)) return Error::kMalformed;
-    const Index edges = static_cast<Index>(1 + ahead_.size() + behind_.size());
-    question_.face = script_.face({start, second, head, tail, edges, closed}, gaps_);
-    if (const Error error = openFace(edges); error != Error::kNone) return error;
-    if (closed != (question_.face.degree == edges)) return Error::kMalformed;
-    emitKnown(start);
-    for (const Index gap : ahead_) emitKnown(gap);
-    if (!closed) {
-      if (const Error error = fill(head, tail); error != Error::kNone) return error;
-    }
-    releaseUsed(start, head, closed);
-    requeue();
-    return pinched_ ? Error::kMalformed : Error::kNone;
-  }
-
-  // Follows the boundary both ways while the face uses up gaps. `ahead_` and `behind_` collect the gaps passed, whose
-  // leaving edge belongs to the face, without `start` itself.
-  bool findEnds(Index& head, Index& tail, bool& closed) {
-    const Index start = head;
     while (gaps_[tail].free_slots == 0) {
+      ++edges;
       const Index next = gaps_[tail].next;
-      ahead_.push_back(tail);
-      if (next == start) return closed = true, gaps_[start].free_slots == 0;
-      if (!take(next)) return false;
+      if (next == start) {
+        closed = true;
+        break;
+      }
+      if (!take(next, current)) return Error::kMalformed;
       tail = next;
       script_.step();
     }
-    while (gaps_[head].free_slots == 0) {
+    while (!closed && gaps_[head].free_slots == 0) {
+      ++edges;
       head = gaps_[head].prev;
-      if (!take(head)) return false;
-      behind_.push_back(head);
+      if (!take(head, current)) return Error::kMalformed;
     }
-    return true;
+    const FaceAnswer face = script_.face({start, second, head, tail, edges, closed}, gaps_);
+    if (const Error error = openFace(face, edges); error != Error::kNone) return error;
+    if (closed != (face.degree == edges)) return Error::kMalformed;
+    const Index first_corner = corners_.size(), splits = splits_, stop = closed ? start : tail;
+    emitKnown(start, face);
+    for (Index gap = second; gap != stop; gap = gaps_[gap].next) emitKnown(gap, face);
+    if (closed) {
+      if (gaps_[start].free_slots != 0) return Error::kMalformed;
+      gaps_.release(start);
+    } else {
+      VertexQuestion& question = current.question;
+      question.face = face;
+      question.head = head;
+      question.current = current.tail = tail;
+      question.before_tail = gaps_[tail].prev;
+      question.missing = face.degree - edges - 1;
+      const uint16_t after_head = capped(gaps_[gaps_[head].next].valence);
+      current.before_valence = capped(gaps_[question.before_tail].valence);
+      emit(gaps_[tail], face);
+      while (question.missing > 0) {
+        const VertexAnswer vertex = script_.vertex(question, gaps_);
+        if (vertex.valence != 0) {
+          if (const Error error = addVertex(vertex, current); error != Error::kNone) return error;
+        } else {
+          current = split(current);
+          if (current.error != Error::kNone) return current.error;
+        }
+      }
+      const Index last_corner = corners_.size() - 1;
+      for (Index gap = head; gap != start; gap = gaps_[gap].next) emitKnown(gap, face);
+      Gap& last = gaps_[question.current];
+      if (last.free_slots == 0) return Error::kMalformed;
+      if (Script::kGathers && current.is_new) last.opposite_own = capped(gaps_[head].valence);
+      closeBoundary(head, question.current, last_corner, current.before_valence, face);
+      if (Script::kGathers) gaps_[head].opposite_own = after_head;
+      if (splits_ != splits && !finishSplits(first_corner, face)) return Error::kMalformed;
+      requeue(current.tail, head, face);
+      if (start != head) gaps_.release(start);
+    }
+    for (Index gap = second; gap != stop;) {
+      const Index next = gaps_[gap].next;
+      gaps_.release(gap);
+      gap = next;
+    }
+    if (start != head) {
+      for (Index gap = gaps_[start].prev; gap != head; gap = gaps_[gap].prev) gaps_.release(gap);
+    }
+    return pinched_ ? Error::kMalformed : Error::kNone;
   }
 
-  // The rest of a face that is not closed: the missing vertices from `tail` round to `head`.
-  Error fill(Index head, Index tail) {
-    question_.head = head;
-    question_.current = tail;
-    question_.before_tail = gaps_[tail].prev;
-    const uint8_t after_head = capped(gaps_[gaps_[head].next].valence);
-    before_valence_ = capped(gaps_[question_.before_tail].valence);
-    current_is_new_ = false;
-    touched_.push_back(tail);
-    emit(tail);
-    Index current = tail;
-    question_.missing = question_.face.degree - static_cast<Index>(2 + ahead_.size() + behind_.size());
-    while (question_.missing > 0) {
-      const VertexAnswer vertex = script_.vertex(question_, gaps_);
-      if (const Error fault = script_.fault(); fault != Error::kNone) return fault;
-      const Error error = vertex.valence == 0 ? split(current) : addVertex(vertex, current);
-      if (error != Error::kNone) return error;
-    }
-    if (gaps_[current].free_slots == 0) return Error::kMalformed;
-    const Index last_corner = corner_ - 1;
-    for (size_t i = behind_.size(); i-- > 0;) emitKnown(behind_[i]);
-    if (current_is_new_) gaps_[current].opposite_own = capped(gaps_[head].valence);
-    closeBoundary(head, current, last_corner);
-    gaps_[head].opposite_own = after_head;
-    touched_.push_back(head);
-    return Error::kNone;
-  }
-
-  // A vertex that nobody knew; becomes `current`.
-  Error addVertex(const VertexAnswer& vertex, Index& current) {
-    if (mesh_.umbrella_count >= limits_.max_corners) return Error::kLimitExceeded;
+  // A vertex that nobody knew; becomes the current one.
+  Error addVertex(const VertexAnswer& vertex, Current& current) {
+    if (const Error fault = script_.fault(); fault != Error::kNone) return fault;
+    if (vertex.valence == 0) return Error::kMalformed;
+    if (umbrellas_ >= limits_.max_corners) return Error::kLimitExceeded;
     const Index gap = gaps_.create();
     Gap& record = gaps_[gap];
-    record.umbrella = mesh_.umbrella_count++;
+    record.umbrella = static_cast<Index>(umbrellas_++);
     record.valence = vertex.valence;
     record.free_slots = vertex.valence - 1;
-    on_boundary_.push_back(0);
-    if (current != kNone) linkBefore(current, gap);
+    record.flat = flatAngle(vertex.valence);
+    VertexQuestion& question = current.question;
+    if (question.current != kNone) {
+      closeBoundary(gap, question.current, corners_.size() - 1, current.before_valence, question.face);
+    }
     if (vertex.dummy) dummy_umbrellas_.push_back(record.umbrella);
     become(gap, current, true);
-    find(vertex.valence);
+    --question.missing;
+    ++question.index;
+    know(record, current);
     return Error::kNone;
   }
 
-  // A vertex of the region; becomes `current`. Where it keeps no free slot on its far side, the face goes on along the
-  // boundary.
-  Error split(Index& current) {
-    const SplitAnswer answer = script_.split(question_, gaps_);
-    if (answer.gap >= gaps_.highWater() || !gaps_[answer.gap].queued) return Error::kMalformed;
+  // A vertex of the region; becomes the current one. Where it keeps no free slot on its far side, the face goes on
+  // along the boundary.
+  [[gnu::noinline]] Current split(Current current) {
+    VertexQuestion& question = current.question;
+    const SplitAnswer answer = script_.split(question, gaps_);
+    current.error = script_.fault();
+    if (current.error != Error::kNone) return current;
+    current.error = Error::kMalformed;
+    if (answer.gap >= gaps_.highWater() || !gaps_[answer.gap].queued) return current;
     const Index slots = gaps_[answer.gap].free_slots;
-    if (slots < 2 || answer.slots_after > slots - 2) return Error::kMalformed;
+    if (slots < 2 || answer.slots_after > slots - 2) return current;
     ++splits_;
     const Index before = divide(answer);
-    linkBefore(current, before);
-    touched_.push_back(before);
+    closeBoundary(before, question.current, corners_.size() - 1, current.before_valence, question.face);
+    segments_.push_back({current.tail, before});
     become(answer.gap, current, false);
-    find(gaps_[current].valence);
-    while (gaps_[current].free_slots == 0) {
-      const Index next = gaps_[current].next;
-      if (question_.missing == 0 || !take(next)) return Error::kMalformed;
-      pairLast(gaps_[current].behind);
-      gaps_.release(current);
+    --question.missing;
+    ++question.index;
+    know(gaps_[question.current], current);
+    while (gaps_[question.current].free_slots == 0) {
+      const Index used = question.current, next = gaps_[used].next;
+      if (question.missing == 0 || !take(next, current)) return current;
+      pairLast(gaps_[used].behind, question.face);
+      gaps_.release(used);
       become(next, current, false);
-      --question_.missing;
+      --question.missing;
     }
-    return Error::kNone;
+    current.tail = question.current;
+    current.error = Error::kNone;
+    return current;
   }
 
   // Cuts a gap in two around the slot that the face takes: a new one keeps the arriving edge, the old one the leaving.
@@ -261,134 +298,136 @@ class Walk {
     return before;
   }
 
-  void become(Index gap, Index& current, bool is_new) {
-    script_.step();
-    if (current != kNone) {
-      if (current_is_new_) gaps_[current].opposite_own = capped(gaps_[gap].valence);
-      before_valence_ = capped(gaps_[current].valence);
+  // After a face with splits. False: it visits an umbrella twice, which no encoder writes.
+  [[gnu::noinline]] bool finishSplits(Index first_corner, const FaceAnswer& face) {
+    for (const Segment& segment : segments_) requeue(segment.tail, segment.head, face);
+    segments_.clear();
+    last_face_.resize(umbrellas_, kNone);
+    for (Index corner = first_corner; corner < corners_.size(); ++corner) {
+      Index& last = last_face_[corners_.umbrella(corner)];
+      if (last == degrees_.size()) return false;
+      last = degrees_.size();
     }
-    current_is_new_ = is_new;
-    question_.current = gap;
-    current = gap;
-    touched_.push_back(gap);
-    emit(gap);
-  }
-
-  // One missing vertex less.
-  void find(Index valence) {
-    know(valence);
-    --question_.missing;
-    ++question_.index;
-  }
-
-  void know(Index valence) {
-    ++question_.known_vertices;
-    question_.valence_sum += valence;
-    question_.angle += flatAngle(valence);
-  }
-
-  // Uses a slot of a gap for the current face.
-  bool take(Index gap) {
-    if (!gaps_[gap].queued) return false;
-    gaps_.dequeue(gap);
-    --gaps_[gap].free_slots;
-    know(gaps_[gap].valence);
     return true;
   }
 
-  // The boundary now runs from `gap` to `current`; the face lies behind.
-  void linkBefore(Index current, Index gap) { closeBoundary(gap, current, corner_ - 1); }
+  void become(Index gap, Current& current, bool is_new) {
+    script_.step();
+    const Gap& record = gaps_[gap];
+    if (Script::kGathers && current.question.current != kNone) {
+      Gap& before = gaps_[current.question.current];
+      if (current.is_new) before.opposite_own = capped(record.valence);
+      current.before_valence = capped(before.valence);
+    }
+    current.is_new = is_new;
+    current.question.current = gap;
+    emit(record, current.question.face);
+  }
 
-  void closeBoundary(Index gap, Index current, Index current_corner) {
+  static void know(const Gap& gap, Current& current) {
+    current.question.valence_sum += gap.valence;
+    current.question.angle += gap.flat;
+  }
+
+  // Uses a slot of a gap for the current face.
+  bool take(Index gap, Current& current) {
     Gap& record = gaps_[gap];
-    Gap& other = gaps_[current];
-    record.next = current;
+    if (!record.queued) return false;
+    gaps_.dequeue(gap);
+    --record.free_slots;
+    know(record, current);
+    return true;
+  }
+
+  // The boundary now runs from `gap` to `next`; the face lies behind, in which next has the corner `next_corner`.
+  void closeBoundary(Index gap, Index next, Index next_corner, uint16_t before_valence, const FaceAnswer& face) {
+    Gap& record = gaps_[gap];
+    Gap& other = gaps_[next];
+    record.next = next;
     other.prev = gap;
-    record.opposite_next = before_valence_;
-    meet(record, other.valence);
-    meet(other, record.valence);
-    record.behind = question_.face.dummy ? kNone : current_corner;
-    record.degree_behind = question_.face.dummy ? 0 : question_.face.degree;
+    record.behind = face.dummy ? kNone : next_corner;
+    record.degree_behind = face.dummy ? 0 : face.degree;
+    if (Script::kGathers) {
+      record.opposite_next = before_valence;
+      meet(record, other.valence);
+      meet(other, record.valence);
+    }
     script_.cross(record, gap);
   }
 
-  static uint8_t capped(Index valence) { return static_cast<uint8_t>(valence < 14 ? valence : 14); }
+  static uint16_t capped(Index valence) { return static_cast<uint16_t>(valence < 14 ? valence : 14); }
 
   static void meet(Gap& gap, Index valence) {
     gap.neighbour_valences += valence < 200 ? valence : 200;
     ++gap.neighbours;
   }
 
-  Error openFace(Index edges) {
-    const FaceAnswer& face = question_.face;
+  Error openFace(const FaceAnswer& face, Index edges) {
     if (const Error fault = script_.fault(); fault != Error::kNone) return fault;
     if (face.degree < least_degree_ || face.degree < edges) return Error::kMalformed;
     // Every corner of a dummy face lies against a corner of the mesh.
-    if (face.degree > limits_.max_corners - (face.dummy ? 0 : corner_)) return Error::kLimitExceeded;
+    if (face.degree > limits_.max_corners - (face.dummy ? 0 : corners_.size())) return Error::kLimitExceeded;
     if (face.dummy) return Error::kNone;
-    if (mesh_.face_degrees.size() >= limits_.max_faces) return Error::kLimitExceeded;
-    mesh_.face_degrees.push_back(face.degree);
+    if (degrees_.size() >= limits_.max_faces) return Error::kLimitExceeded;
+    degrees_.add(face.degree);
     return Error::kNone;
   }
 
-  void emit(Index gap) {
-    const Index umbrella = gaps_[gap].umbrella;
-    if (question_.face.dummy) {
-      pinched_ |= on_boundary_[umbrella];
-      on_boundary_[umbrella] = 1;
-      return;
+  void emit(const Gap& gap, const FaceAnswer& face) {
+    if (face.dummy) {
+      touchBoundary(gap.umbrella);
+    } else {
+      corners_.add(gap.umbrella);
     }
-    mesh_.umbrellas.push_back(umbrella);
-    mesh_.twins.push_back(kNone);
-    ++corner_;
   }
 
-  void emitKnown(Index gap) {
-    emit(gap);
-    pairLast(gaps_[gap].behind);
+  [[gnu::noinline]] void touchBoundary(Index umbrella) {
+    if (umbrella >= on_boundary_.size()) on_boundary_.resize(umbrellas_);
+    pinched_ |= on_boundary_[umbrella];
+    on_boundary_[umbrella] = 1;
+  }
+
+  void emitKnown(Index gap, const FaceAnswer& face) {
+    const Gap& record = gaps_[gap];
+    emit(record, face);
+    pairLast(record.behind, face);
   }
 
   // The last corner's edge is the other side of the edge of `corner`.
-  void pairLast(Index corner) {
-    if (question_.face.dummy || corner == kNone) return;
-    mesh_.twins[corner_ - 1] = corner;
-    mesh_.twins[corner] = corner_ - 1;
+  void pairLast(Index corner, const FaceAnswer& face) {
+    if (!face.dummy && corner != kNone) corners_.pairLast(corner);
   }
 
-  void releaseUsed(Index start, Index head, bool closed) {
-    if (start != head || closed) gaps_.release(start);
-    for (const Index gap : ahead_) gaps_.release(gap);
-    for (const Index gap : behind_) {
-      if (gap != head) gaps_.release(gap);
-    }
-  }
-
-  void requeue() {
-    const bool dummy = question_.face.dummy;
-    const uint32_t angle = dummy ? 0 : static_cast<uint32_t>(flatAngle(question_.face.degree));
-    for (const Index gap : touched_) {
+  // Queues the gaps of the boundary from `tail` back to `head`, along the current face.
+  void requeue(Index tail, Index head, const FaceAnswer& face) {
+    const uint32_t angle = face.dummy ? 0 : static_cast<uint32_t>(flatAngle(face.degree));
+    for (Index gap = tail;; gap = gaps_[gap].prev) {
       Gap& record = gaps_[gap];
-      if (record.free_slots == 0 || record.queued) continue;
-      record.angle += angle;
-      record.dummy |= dummy;
+      if (Script::kGathers) record.angle += angle;
+      if (face.dummy) record.dummy = true;
       gaps_.enqueue(gap);
+      if (gap == head) return;
     }
   }
+
+  // A stretch of the boundary along the current face, from a split back.
+  struct Segment {
+    Index tail, head;
+  };
 
   Script& script_;
   Gaps gaps_;
   Index least_degree_;
   Limits limits_;
   Connectivity mesh_;
-  std::vector<uint8_t> on_boundary_;
+  Appender degrees_;                  // of the mesh
+  CornerAppender corners_;            // likewise
+  std::vector<uint8_t> on_boundary_;  // as far as a dummy face was met
   std::vector<Index> dummy_umbrellas_;
-  VertexQuestion question_;
-  std::vector<Index> ahead_, behind_;  // gaps that the current face uses up
-  std::vector<Index> touched_;         // gaps of the current face that may go on, in the order of their queueing
-  Index corner_ = 0;                   // corners coded so far
-  uint8_t before_valence_ = 0;         // of the vertex before the current one in the current face, up to 14
-  bool current_is_new_ = false;        // the current vertex's leaving edge belongs to the current face
-  bool pinched_ = false;               // two dummy faces, or one twice, touch an umbrella: never in a valid stream
+  std::vector<Index> last_face_;   // per umbrella, as far as there were splits: the last face with splits, plus 1
+  std::vector<Segment> segments_;  // of the current face
+  size_t umbrellas_ = 0;
+  bool pinched_ = false;  // two dummy faces, or one twice, touch an umbrella: never in a valid stream
   Index splits_ = 0;
 };
 

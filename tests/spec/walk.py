@@ -269,9 +269,9 @@ class Walk:
         return len(self.mesh.umbrellas) - 1
 
     def requeue(self):
-        for g in self.touched:
+        for i, g in enumerate(self.touched):
             gap = self.gaps[g]
-            if gap.free != 0 and g not in self.queued:
+            if gap.free != 0 and g not in self.touched[i + 1:]:
                 gap.angle += 0 if self.dummy else flat_angle(self.degree)
                 gap.dummy |= int(self.dummy)
                 self.join(g)
