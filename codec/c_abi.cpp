@@ -1,7 +1,5 @@
 #include "codec/c_abi.h"
 
-#include <array>
-#include <cstdlib>
 #include <limits>
 #include <new>
 #include <optional>
@@ -9,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "codec/c_abi_mesh.h"
 #include "codec/decode.h"
 #include "codec/encode.h"
 #include "codec/payload.h"
@@ -16,27 +15,10 @@
 
 using namespace tutte;
 
-/// One handle for all meshes: what it was not made with stays empty.
-struct tutte_mesh {
-  enum class Origin { kEncoded, kSection, kPayload };
-
-  Origin origin = Origin::kSection;
-  PayloadMesh mesh;
-  std::vector<uint8_t> section_bytes;
-  std::vector<Index> vertex_order, face_order, corner_order;
-  std::array<std::optional<DerivedArray>, TUTTE_ARRAY_COUNT - TUTTE_TRIANGLE_INDICES> derived;  ///< once asked for
-};
-
 namespace {
 
 static_assert(static_cast<int>(Error::kTruncated) == -TUTTE_TRUNCATED);
 static_assert(static_cast<int>(Error::kAttributes) == -TUTTE_ATTRIBUTES);
-
-int32_t statusOf(Error error) { return -static_cast<int32_t>(error); }
-
-bool isSpan(const void* data, size_t count, size_t size) {
-  return count <= std::numeric_limits<ptrdiff_t>::max() / size && (data != nullptr || count == 0);
-}
 
 Limits limitsFrom(const tutte_limits* limits) {
   return limits ? Limits{limits->max_vertices, limits->max_faces, limits->max_corners} : Limits{};
@@ -53,16 +35,6 @@ EncodeOptions optionsFrom(const tutte_encode_options* options) {
   if (options->profile >= 0) result.profile = static_cast<Profile>(options->profile);
   result.effort = options->effort;
   return result;
-}
-
-// Whether the system would give that much. It is given back at once; `volatile` keeps compilers, which may assume that
-// memory is endless, from leaving out the question.
-bool canAllocate(uint64_t bytes) {
-  if (bytes > static_cast<uint64_t>(std::numeric_limits<ptrdiff_t>::max())) return false;
-  void* volatile const memory = std::malloc(static_cast<size_t>(bytes));
-  const bool given = memory != nullptr;
-  std::free(memory);
-  return given;
 }
 
 // Bytes per thing, a fifth more than the most that was measured of any kind of mesh.
@@ -182,6 +154,7 @@ const char* tutte_describe(int32_t status) {
     case TUTTE_INVALID_ARGUMENT: return "an argument is null or out of its range";
     case TUTTE_BUFFER_TOO_SMALL: return "the array is longer than the buffer";
     case TUTTE_NOT_AVAILABLE: return "this mesh or payload does not have that";
+    case TUTTE_NOT_BUILT: return "this build of the library leaves out what the data needs";
     default: break;
   }
   const bool known = status <= 0 && status >= TUTTE_ATTRIBUTES;

@@ -1,11 +1,11 @@
 #include "gltf_ext/attributes.h"
 
 #include <algorithm>
-#include <new>
 #include <numeric>
 
 #include "gltf_ext/attribute_coding.h"
 #include "gltf_ext/draco_planes.h"
+#include "gltf_ext/guard.h"
 #include "gltf_ext/value_planes.h"
 
 namespace tutte {
@@ -34,6 +34,10 @@ struct Head {
     return {first, last};
   }
 };
+
+Failure thrown(const Thrown& thrown) {
+  return {FailureKind::kUnsupported, "", std::string(thrown.what) + " while coding attributes"};
+}
 
 Failure damaged(const char* what) { return {FailureKind::kInvalid, "", what}; }
 
@@ -155,6 +159,34 @@ Outcome<std::vector<uint8_t>> encode(const AttributeTopology& topology, std::spa
   return section;
 }
 
+Outcome<std::vector<Attribute>> decode(const AttributeTopology& topology, std::span<const uint8_t> bytes) {
+  ByteReader in(bytes);
+  auto head = readHead(in);
+  if (!head) return head.error();
+  if (!decodeStream(topology, in.take(in.remaining()), *head)) return damaged("the attribute stream is damaged");
+  for (size_t i = 0; i < head->attributes.size(); ++i) {
+    const std::span<Plane> planes = head->planesOf(i);
+    if (!joinValues(planes, head->codings[i], topology.wedge_count, head->attributes[i])) {
+      return damaged("an attribute has a value outside its type");
+    }
+    for (Plane& plane : planes) plane.values = {};
+  }
+  return std::move(head->attributes);
+}
+
+Outcome<std::vector<AttributeSize>> sizesOf(const AttributeTopology& topology, std::span<const uint8_t> bytes) {
+  ByteReader in(bytes);
+  auto head = readHead(in);
+  if (!head) return head.error();
+  if (!decodeStream(topology, in.take(in.remaining()), *head)) return damaged("the attribute stream is damaged");
+  std::vector<AttributeSize> sizes;
+  for (size_t i = 0; i < head->attributes.size(); ++i) {
+    sizes.push_back({head->attributes[i].name, head->sizes[i], {}});
+    for (const Plane& plane : head->planesOf(i)) sizes.back().plane_bytes.push_back(plane.coded_bytes);
+  }
+  return sizes;
+}
+
 }  // namespace
 
 Outcome<std::vector<uint8_t>> encodeAttributes(const AttributeTopology& topology, std::span<const Attribute> attributes,
@@ -164,11 +196,7 @@ Outcome<std::vector<uint8_t>> encodeAttributes(const AttributeTopology& topology
   for (const Attribute& attribute : attributes) {
     if (const auto checked = checkAttribute(attribute, topology.wedge_count); !checked) return checked.error();
   }
-  try {
-    return encode(topology, attributes, options);
-  } catch (const std::bad_alloc&) {
-    return Failure{FailureKind::kUnsupported, "", "out of memory while coding attributes"};
-  }
+  return caught([&] { return encode(topology, attributes, options); }, thrown);
 }
 
 Outcome<std::vector<Attribute>> describeAttributes(std::span<const uint8_t> bytes) {
@@ -186,41 +214,13 @@ Outcome<std::vector<AttributeCoding>> describeCodings(std::span<const uint8_t> b
 }
 
 Outcome<std::vector<Attribute>> decodeAttributes(const AttributeTopology& topology, std::span<const uint8_t> bytes) {
-  ByteReader in(bytes);
-  auto head = readHead(in);
-  if (!head) return head.error();
-  try {
-    if (!decodeStream(topology, in.take(in.remaining()), *head)) return damaged("the attribute stream is damaged");
-    for (size_t i = 0; i < head->attributes.size(); ++i) {
-      const std::span<Plane> planes = head->planesOf(i);
-      if (!joinValues(planes, head->codings[i], topology.wedge_count, head->attributes[i])) {
-        return damaged("an attribute has a value outside its type");
-      }
-      for (Plane& plane : planes) plane.values = {};
-    }
-  } catch (const std::bad_alloc&) {
-    return Failure{FailureKind::kUnsupported, "", "out of memory while decoding attributes"};
-  }
-  return std::move(head->attributes);
+  return caught([&] { return decode(topology, bytes); }, thrown);
 }
 
 uint32_t AttributeSize::bytes() const { return std::accumulate(plane_bytes.begin(), plane_bytes.end(), head_bytes); }
 
 Outcome<std::vector<AttributeSize>> attributeSizes(const AttributeTopology& topology, std::span<const uint8_t> bytes) {
-  ByteReader in(bytes);
-  auto head = readHead(in);
-  if (!head) return head.error();
-  try {
-    if (!decodeStream(topology, in.take(in.remaining()), *head)) return damaged("the attribute stream is damaged");
-    std::vector<AttributeSize> sizes;
-    for (size_t i = 0; i < head->attributes.size(); ++i) {
-      sizes.push_back({head->attributes[i].name, head->sizes[i], {}});
-      for (const Plane& plane : head->planesOf(i)) sizes.back().plane_bytes.push_back(plane.coded_bytes);
-    }
-    return sizes;
-  } catch (const std::bad_alloc&) {
-    return Failure{FailureKind::kUnsupported, "", "out of memory while decoding attributes"};
-  }
+  return caught([&] { return sizesOf(topology, bytes); }, thrown);
 }
 
 }  // namespace tutte

@@ -6,11 +6,11 @@
 #include <draco/compression/mesh/mesh_decoder.h>
 
 #include <algorithm>
-#include <exception>
 
 #include "gltf_ext/draco_guards.h"
 #include "gltf_ext/draco_planes.h"
 #include "gltf_ext/draco_session.h"
+#include "gltf_ext/guard.h"
 
 namespace tutte {
 namespace {
@@ -189,13 +189,12 @@ bool decodeOrThrow(const AttributeTopology& topology, std::span<const uint8_t> b
 
 }  // namespace
 
+bool hasDraco() { return true; }
+
 bool decodePlanes(const AttributeTopology& topology, std::span<const uint8_t> bytes, std::span<Plane> planes) {
   if (planes.empty() || topology.wedge_count == 0) return bytes.empty();
-  try {
-    return decodeOrThrow(topology, bytes, planes);
-  } catch (const std::exception&) {
-    return false;  // Draco ran out of memory, or the standard library refused a size
-  }
+  return caught([&] { return decodeOrThrow(topology, bytes, planes); },
+                [](const Thrown&) { return false; });  // out of memory, or a size that is refused
 }
 
 }  // namespace tutte

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <new>
 
 #include "gltf_ext/draco_planes.h"
 #include "gltf_ext/draco_session.h"
+#include "gltf_ext/guard.h"
 
 namespace tutte {
 namespace {
@@ -201,13 +201,8 @@ Outcome<std::vector<uint8_t>> encodeOrThrow(const AttributeTopology& topology, s
 
 Outcome<std::vector<uint8_t>> encodePlanes(const AttributeTopology& topology, std::span<const Plane> planes) {
   if (planes.empty() || topology.wedge_count == 0) return std::vector<uint8_t>{};
-  try {
-    return encodeOrThrow(topology, planes);
-  } catch (const std::bad_alloc&) {
-    return failure(FailureKind::kUnsupported, "out of memory while coding attributes");
-  } catch (const std::exception& error) {
-    return failure(FailureKind::kUnsupported, error.what());
-  }
+  return caught([&] { return encodeOrThrow(topology, planes); },
+                [](const Thrown& thrown) { return failure(FailureKind::kUnsupported, thrown.what); });
 }
 
 }  // namespace tutte

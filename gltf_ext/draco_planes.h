@@ -11,6 +11,9 @@
 
 namespace tutte {
 
+/// Whether this build has Draco. Without it the two functions below fail, whatever they are given.
+bool hasDraco();
+
 /// The planes in their order, as Draco codes an attribute encoder's values, without any of Draco's headers. The stream
 /// depends on the topology and on kind, components and max of the planes, which the decoder must know.
 /// Fails when a plane has two values where the topology has one, or the topology contradicts itself.

@@ -2,15 +2,13 @@
 // JSON read without exceptions: every look-up checks kind and range, and names the place in its Failure.
 
 #include <cstdint>
-#include <exception>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "gltf_ext/failure.h"
+#include "gltf_ext/guard.h"
 
 namespace tutte {
 
@@ -76,15 +74,10 @@ Failure unsupported(std::string where, std::string what);
 /// Runs `work`, turning what a library below throws (memory, JSON types) into a Failure.
 template <class T, class Work>
 Outcome<T> guarded(Work&& work) {
-  try {
-    return work();
-  } catch (const std::bad_alloc&) {
-    return unsupported("", "out of memory");
-  } catch (const std::length_error&) {
-    return unsupported("", "out of memory");
-  } catch (const std::exception& error) {
-    return invalid("", error.what());
-  }
+  return caught([&]() -> Outcome<T> { return work(); },
+                [](const Thrown& thrown) -> Outcome<T> {
+                  return thrown.memory ? unsupported("", thrown.what) : invalid("", thrown.what);
+                });
 }
 
 }  // namespace tutte

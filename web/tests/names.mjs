@@ -1,0 +1,2 @@
+/** The extension that is tested. */
+export const EXTENSION_NAME = 'TUTTE_mesh_compression';
