@@ -91,6 +91,21 @@ Shape flipFaces(const Shape& shape, Index count, uint64_t seed);
 /// Faces of degree `min_degree` to `max_degree` over random vertices, in any order and with any repetition.
 Shape soup(Index vertices, Index faces, Index min_degree, Index max_degree, uint64_t seed);
 
+// planar.cpp: uniform among all rooted ones of their size.
+/// Of closed triangulations of the sphere without double edges; at least 4 vertices. O(vertices).
+Shape uniformTriangulation(Index vertices, uint64_t seed);
+/// Of polyhedra (3-connected planar maps); 6 edges or at least 8. O(edges) on average. No positions.
+Shape uniformPolyhedron(Index edges, uint64_t seed);
+
+// refinement.cpp: no positions.
+/// Every triangle into four, again and again.
+Shape subdivideTriangles(const Shape& shape, Index times);
+/// The first step of Catmull-Clark subdivision: a quad for every corner.
+Shape subdivideToQuads(const Shape& shape);
+/// A closed mesh of quads, tessellated as a renderer does it with subdivision surfaces: grids of 4^deepest quads in
+/// `features` random quads, coarser by one level every `width` steps away from them, conforming triangles in between.
+Shape adaptiveTessellation(const Shape& quads, Index features, Index deepest, Index width, uint64_t seed);
+
 // dirt.cpp: what real files hold although no surface does.
 Shape book(Index pages);                  ///< `pages` triangles at one edge
 Shape bowTie(Index pieces);               ///< `pieces` tetrahedra at one vertex

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <utility>
@@ -58,29 +59,47 @@ struct Corner {
   Index previous() const { return first + (at + degree - 1) % degree; }
 };
 
-std::map<Edge, Corner> cornersByEdge(const Polygons& mesh) {
-  std::map<Edge, Corner> edges;
+/// The corners at which edges begin, in the order of these; where several begin at one edge, the last.
+class CornersByEdge {
+ public:
+  explicit CornersByEdge(const Polygons& mesh);
+
+  const Corner* find(const Edge& edge) const {
+    const auto found = std::ranges::lower_bound(edges_, edge, {}, &Entry::first);
+    return found == edges_.end() || found->first != edge ? nullptr : &found->second;
+  }
+  auto begin() const { return edges_.begin(); }
+  auto end() const { return edges_.end(); }
+
+ private:
+  using Entry = std::pair<Edge, Corner>;
+  std::vector<Entry> edges_;
+};
+
+CornersByEdge::CornersByEdge(const Polygons& mesh) {
   Index first = 0;
   for (Index face = 0; face < mesh.face_degrees.size(); ++face) {
     const Index degree = mesh.face_degrees[face];
     for (Index i = 0; i < degree; ++i) {
-      edges[{mesh.corners[first + i], mesh.corners[first + (i + 1) % degree]}] = {face, first, degree, i};
+      edges_.push_back({{mesh.corners[first + i], mesh.corners[first + (i + 1) % degree]}, {face, first, degree, i}});
     }
     first += degree;
   }
-  return edges;
+  std::ranges::stable_sort(edges_, {}, &Entry::first);
+  const auto same = [](const Entry& a, const Entry& b) { return a.first == b.first; };
+  edges_.erase(edges_.begin(), std::unique(edges_.rbegin(), edges_.rend(), same).base());
 }
 
 /// The faces round the vertex of `start`, counter-clockwise; empty at a boundary.
-std::vector<Index> facesRound(const Polygons& mesh, const std::map<Edge, Corner>& edges, const Corner& start) {
+std::vector<Index> facesRound(const Polygons& mesh, const CornersByEdge& edges, const Corner& start) {
   std::vector<Index> faces;
   const Index vertex = mesh.corners[start.index()];
   Corner corner = start;
   do {
     faces.push_back(corner.face);
-    const auto found = edges.find({vertex, mesh.corners[corner.previous()]});
-    if (found == edges.end()) return {};
-    corner = found->second;
+    const Corner* found = edges.find({vertex, mesh.corners[corner.previous()]});
+    if (!found) return {};
+    corner = *found;
   } while (corner.face != start.face);
   return faces;
 }
@@ -163,7 +182,7 @@ Shape comb(Index teeth) {
 }
 
 Shape dual(const Shape& shape) {
-  const std::map<Edge, Corner> edges = cornersByEdge(shape.mesh);
+  const CornersByEdge edges(shape.mesh);
   Shape result;
   std::vector<bool> done(shape.mesh.vertex_count);
   Index first = 0;
