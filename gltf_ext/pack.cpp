@@ -1,7 +1,6 @@
 #include "gltf_ext/pack.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 
 #include "codec/decode.h"
@@ -54,10 +53,7 @@ class Packer {
 
  private:
   Outcome<Done> connectivity() {
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point start = Clock::now();
     Result<Encoded> encoded = encode(mesh_.polygons, options_.connectivity);
-    packed_.connectivity_encode_seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (!encoded) return failureOf(encoded.error(), "connectivity");
     encoded_ = std::move(*encoded);
     packed_.splits = encoded_.splits;

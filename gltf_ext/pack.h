@@ -46,7 +46,6 @@ struct Packed {
   uint32_t degree_bytes = 0;
   uint32_t seam_bytes = 0;
   uint32_t attribute_bytes = 0;  ///< seams and attribute section
-  double connectivity_encode_seconds = 0;
 };
 
 /// Codes a mesh that obeys the rules of gltf_ext/mesh_rules.h. A mesh without triangles gets those of triangulate():

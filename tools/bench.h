@@ -21,7 +21,7 @@ struct BenchPlan {
 
 /// Measures every mesh of the scene that has polygons. All coders run in turn, round after round, until their time is
 /// spent or ten rounds are done, and the best time of each step counts: so all are the best of the same number of
-/// runs, and what else the machine does meets all alike.
+/// runs, and what else the machine does meets all alike. Times are processor time.
 Outcome<BenchFigures> measure(const std::string& file, Scene scene, const BenchPlan& plan);
 
 }  // namespace tutte

@@ -10,7 +10,7 @@
 
 namespace tutte {
 
-/// Bytes and seconds of one coder, summed over the meshes of a file.
+/// Bytes and seconds (of processor time) of one coder, summed over the meshes of a file.
 struct CoderFigures {
   uint64_t connectivity_bytes = 0;
   uint64_t seam_bytes = 0;

@@ -22,8 +22,8 @@ enum class DracoInput : uint8_t {
   kPolygons,
 };
 
-/// Bytes and seconds of one mesh. Encoding starts with the finished draco::Mesh, triangulated and welded, and ends
-/// with the .drc bytes; decoding starts with these and ends with a draco::Mesh.
+/// Bytes and seconds (of processor time) of one mesh. Encoding starts with the finished draco::Mesh, triangulated and
+/// welded, and ends with the .drc bytes; decoding starts with these and ends with a draco::Mesh.
 struct DracoFigures {
   uint64_t connectivity_bytes = 0;  ///< growth of the buffer inside the connectivity step (with seams of attributes)
   uint64_t seam_bytes = 0;          ///< of these: what the step takes less for positions alone
