@@ -42,7 +42,7 @@ class Appender {
   size_t size_ = 0, room_ = 0;  // not Index, so that compilers know that no element written changes them
 };
 
-/// The same for the corners of a mesh.
+/// The corners of a mesh, likewise. Whoever adds some counts them, writes to umbrellas() and twins(), and tells size().
 class CornerAppender {
  public:
   CornerAppender(Connectivity& mesh, size_t expected) : mesh_(mesh) {
@@ -50,20 +50,15 @@ class CornerAppender {
     mesh.twins.reserve(expected);
   }
 
+  /// `corners` elements, those that were not written included. New twins are kNone. May move the arrays.
+  void makeRoom(size_t corners) {
+    if (corners > room_) grow(corners);
+  }
+  Index* umbrellas() { return umbrellas_; }
+  Index* twins() { return twins_; }
+
   Index size() const { return static_cast<Index>(size_); }
-  Index umbrella(Index corner) const { return umbrellas_[corner]; }
-
-  /// A corner without a twin.
-  void add(Index umbrella) {
-    if (size_ == room_) grow();
-    umbrellas_[size_++] = umbrella;
-  }
-
-  /// Makes the last corner and an earlier one twins.
-  void pairLast(Index corner) {
-    twins_[size_ - 1] = corner;
-    twins_[corner] = static_cast<Index>(size_ - 1);
-  }
+  void setSize(Index size) { size_ = size; }
 
   void finish() {
     mesh_.umbrellas.resize(size_);
@@ -71,18 +66,20 @@ class CornerAppender {
   }
 
  private:
-  [[gnu::noinline]] void grow() {
-    growByBlock(mesh_.umbrellas, 0);
-    growByBlock(mesh_.twins, kNone);
+  [[gnu::noinline]] void grow(size_t corners) {
+    while (corners > room_) {
+      growByBlock(mesh_.umbrellas, 0);
+      growByBlock(mesh_.twins, kNone);
+      room_ = std::min(mesh_.umbrellas.size(), mesh_.twins.size());
+    }
     umbrellas_ = mesh_.umbrellas.data();
     twins_ = mesh_.twins.data();
-    room_ = std::min(mesh_.umbrellas.size(), mesh_.twins.size());
   }
 
   Connectivity& mesh_;
   Index* umbrellas_ = nullptr;
   Index* twins_ = nullptr;
-  size_t size_ = 0, room_ = 0;  // not Index, so that compilers know that no element written changes them
+  size_t size_ = 0, room_ = 0;  // not Index, for the same reason
 };
 
 }  // namespace tutte

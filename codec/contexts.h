@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 #include "codec/gaps.h"
 #include "codec/walk.h"
@@ -29,9 +30,19 @@ inline constexpr std::array<uint8_t, 1024> kSides = [] {
   return sides;
 }();
 
-/// Sides of the regular polygon with the given angle (1 - 2 / sides, in 1/65536), in half steps, at most 30.
-inline uint64_t sidesOf(int64_t angle) {
-  return kSides[static_cast<size_t>(std::clamp(angle >> 6, int64_t{0}, int64_t{1023}))];
+/// 2^32 / n, rounded up.
+inline constexpr std::array<uint64_t, 64> kInverse = [] {
+  std::array<uint64_t, 64> inverse{};
+  for (uint64_t n = 1; n < 64; ++n) inverse[n] = ((uint64_t{1} << 32) + n - 1) / n;
+  return inverse;
+}();
+
+/// Sides of the regular polygon whose angle is the `parts`-th part of what `angle`, at most 131072, lacks to a whole
+/// turn (1 - 2 / sides, in 1/65536), in half steps, at most 30.
+inline uint32_t sidesOf(int64_t angle, uint64_t parts) {
+  const uint64_t rest = static_cast<uint64_t>(std::max(131072 - angle, int64_t{0}));
+  const uint64_t part = parts < kInverse.size() ? rest * kInverse[parts] >> 32 : rest / parts;
+  return kSides[std::min(part >> 6, uint64_t{1023})];
 }
 
 /// Packs features, the first one lowest. Each is given with its number of bits.
@@ -53,47 +64,40 @@ inline constexpr Gap kNoGap{};
 
 /// Around a missing vertex. "Head" and "current" are the vertices of the face between which it lies.
 struct VertexFeatures {
-  uint64_t face, missing, mode;           // the face's degree (dummy: 1), vertices missing, usual valence
-  uint64_t head, current, before, after;  // valences: at head, at current, and beyond them on the boundary
-  uint64_t head_slots, current_slots, before_slots, after_slots;
-  uint64_t head_sum, current_sum;    // excess of the neighbours' valences, around 8
-  uint64_t opposite, opposite_head;  // the vertex across the edge before the first missing one / head
-  uint64_t predicted;                // valence that would make the dual face flat, in half steps
-  uint64_t degree_after;             // degree behind the edge that leaves current
+  uint32_t face, missing, mode;           // the face's degree (dummy: 1), vertices missing, usual valence
+  uint32_t head, current, before, after;  // valences: at head, at current, and beyond them on the boundary
+  uint32_t head_slots, current_slots, before_slots, after_slots;
+  uint32_t head_sum, current_sum;    // excess of the neighbours' valences, around 8
+  uint32_t opposite, opposite_head;  // the vertex across the edge before the first missing one / head
+  uint32_t predicted;                // valence that would make the dual face flat, in half steps
+  uint32_t degree_after;             // degree behind the edge that leaves current
   History history;
 
-  // Inlined, so that what no context of a profile reads is not gathered.
-  [[gnu::always_inline]] VertexFeatures(const VertexQuestion& q, const Gaps& gaps, Index usual_valence,
-                                        const History& recent)
-      : history(recent) {
-    const Gap& a = q.head == kNone ? kNoGap : gaps[q.head];
-    const Gap& b = q.current == kNone ? kNoGap : gaps[q.current];
-    const Gap& next = b.next == kNone ? kNoGap : gaps[b.next];
-    const Gap& prev = a.prev == kNone ? kNoGap : gaps[a.prev];
-    const Gap& edge = q.before_tail == kNone ? kNoGap : gaps[q.before_tail];
-    face = q.face.dummy ? 1 : std::min(q.face.degree, Index{15});
-    missing = std::min(q.missing, Index{7});
-    mode = usual_valence;
-    head = valence(a), current = valence(b), before = valence(prev), after = valence(next);
+  // Inlined, so that what no context of a profile reads is not gathered. In a seed face some of the gaps do not exist.
+  template <bool kSeed>
+  [[gnu::always_inline]] VertexFeatures(std::bool_constant<kSeed>, const VertexQuestion& q, const Gaps& gaps,
+                                        uint32_t face_class, uint32_t usual_valence, const History& recent)
+      : face(face_class), missing(std::min(q.missing, Index{7})), mode(usual_valence), history(recent) {
+    const auto at = [&](Index gap) -> const Gap& { return kSeed && gap == kNone ? kNoGap : gaps[gap]; };
+    const Gap &a = at(q.head), &b = at(q.current), &edge = at(q.before_tail), &next = at(b.next), &prev = at(a.prev);
+    head = a.capped, current = b.capped, before = prev.capped, after = next.capped;
     head_slots = slots(a), current_slots = slots(b), before_slots = slots(prev), after_slots = slots(next);
     const int regular = q.face.degree == 3 ? 6 : 4;
     head_sum = sum(a, regular), current_sum = sum(b, regular);
-    opposite = q.index == 0 && q.before_tail != kNone ? edge.opposite_next : 15;
-    opposite_head = q.missing == 1 && q.head != kNone ? a.opposite_own : 15;
-    const int64_t rest = 131072 - q.angle;
-    predicted = sidesOf(q.missing == 1 ? rest : rest / static_cast<int64_t>(q.missing));
+    opposite = q.index == 0 && !kSeed ? edge.opposite_next : 15;
+    opposite_head = q.missing == 1 && !kSeed ? a.opposite_own : 15;
+    predicted = sidesOf(q.angle, q.missing);
     degree_after = std::min(b.degree_behind, Index{15});
   }
 
-  uint64_t beyondCurrent() const { return current_slots == 1 ? after : 0; }
-  uint64_t beyondHead() const { return head_slots == 1 ? before : 0; }
-  uint64_t nearest() const { return missing == 1 ? opposite_head : opposite; }
+  uint32_t beyondCurrent() const { return current_slots == 1 ? after : 0; }
+  uint32_t beyondHead() const { return head_slots == 1 ? before : 0; }
+  uint32_t nearest() const { return missing == 1 ? opposite_head : opposite; }
 
-  static uint64_t valence(const Gap& gap) { return std::min(gap.valence, Index{14}); }
-  static uint64_t slots(const Gap& gap) { return std::min(gap.free_slots, Index{7}); }
-  static uint64_t sum(const Gap& gap, int regular) {
-    const int64_t excess = int64_t{gap.neighbour_valences} - int64_t{regular} * gap.neighbours;
-    return static_cast<uint64_t>(std::clamp(excess, int64_t{-7}, int64_t{7}) + 8);
+  static uint32_t slots(const Gap& gap) { return std::min(gap.free_slots, Index{7}); }
+  static uint32_t sum(const Gap& gap, int regular) {
+    const int64_t excess = static_cast<int64_t>(gap.met & 0xFFFFFFFF) - regular * static_cast<int64_t>(gap.met >> 32);
+    return static_cast<uint32_t>(std::clamp(excess, int64_t{-7}, int64_t{7}) + 8);
   }
 };
 
@@ -152,18 +156,18 @@ template <VertexContext context>
     p.add(f.head_slots, 3).add(f.current_slots, 3);
   }
   if constexpr (context == kPredictedSlots) p.add(f.predicted, 5).add(f.head_slots, 3).add(f.current_slots, 3);
-  return p | (f.face | f.missing << 4 | f.mode << 7) << 44;
+  return p | uint64_t{f.face | f.missing << 4 | f.mode << 7} << 44;
 }
 
 /// Around a face. It is attached from "near" to "far"; its part on the boundary runs from "head" to "tail".
 struct FaceFeatures {
-  uint64_t known, least;           // edges known, least possible degree
-  uint64_t near, far, head, tail;  // valences
-  uint64_t near_slots, head_slots, tail_slots;
-  uint64_t behind, behind_tail, behind_head;  // degrees: across the first edge, and beyond both ends
-  uint64_t near_predicted, far_predicted;     // degrees that would make the vertices flat, in half steps
-  uint64_t dummies;                           // which of near, far, head, tail touch a dummy face
-  uint64_t mean_sum;                          // excess of the neighbours' valences at both ends
+  uint32_t known, least;           // edges known, least possible degree
+  uint32_t near, far, head, tail;  // valences
+  uint32_t near_slots, head_slots, tail_slots;
+  uint32_t behind, behind_tail, behind_head;  // degrees: across the first edge, and beyond both ends
+  uint32_t near_predicted, far_predicted;     // degrees that would make the vertices flat, in half steps
+  uint32_t dummies;                           // which of near, far, head, tail touch a dummy face
+  uint32_t mean_sum;                          // excess of the neighbours' valences at both ends
   History history;
 
   [[gnu::always_inline]] FaceFeatures(const FaceQuestion& q, const Gaps& gaps, const History& recent)
@@ -172,21 +176,19 @@ struct FaceFeatures {
     const Gap &g0 = at(q.gap), &g1 = at(q.far_gap), &a = at(q.head), &b = at(q.tail), &prev = at(a.prev);
     known = std::min(q.known_edges, Index{15});
     least = std::min(std::max(Index{3}, q.known_edges + 1), Index{9});
-    near = VertexFeatures::valence(g0), far = VertexFeatures::valence(g1);
-    head = VertexFeatures::valence(a), tail = VertexFeatures::valence(b);
+    near = g0.capped, far = g1.capped;
+    head = a.capped, tail = b.capped;
     near_slots = VertexFeatures::slots(g0);
     head_slots = VertexFeatures::slots(a), tail_slots = VertexFeatures::slots(b);
     behind = degree(g0), behind_tail = degree(b), behind_head = degree(prev);
     near_predicted = predict(g0), far_predicted = predict(g1);
-    dummies = uint64_t{g0.dummy} | uint64_t{g1.dummy} << 1 | uint64_t{a.dummy} << 2 | uint64_t{b.dummy} << 3;
+    dummies = uint32_t{g0.dummy} | uint32_t{g1.dummy} << 1 | uint32_t{a.dummy} << 2 | uint32_t{b.dummy} << 3;
     mean_sum = (VertexFeatures::sum(a, 4) + VertexFeatures::sum(b, 4)) / 2;
   }
 
-  static uint64_t degree(const Gap& gap) { return std::min(gap.degree_behind, Index{15}); }
+  static uint32_t degree(const Gap& gap) { return std::min(gap.degree_behind, Index{15}); }
   // The face takes one of the vertex's slots already.
-  static uint64_t predict(const Gap& gap) {
-    return sidesOf((int64_t{131072} - gap.angle) / (int64_t{gap.free_slots} + 1));
-  }
+  static uint32_t predict(const Gap& gap) { return sidesOf(gap.angle, uint64_t{gap.free_slots} + 1); }
 };
 
 /// Contexts of a degree.
@@ -214,7 +216,7 @@ template <FaceContext context>
   Pack p;
   if constexpr (context == kEnds) p.add(f.head, 4).add(f.tail, 4).add(f.known, 4);
   if constexpr (context == kNearAngle) {
-    p.add(f.near_predicted, 5).add(std::min(f.near_slots, uint64_t{2}), 2).add(f.behind, 4);
+    p.add(f.near_predicted, 5).add(std::min(f.near_slots, 2u), 2).add(f.behind, 4);
   }
   if constexpr (context == kHistory) p.add(f.history.degrees & 0xFFFF, 16);
   if constexpr (context == kAround) {

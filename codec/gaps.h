@@ -29,24 +29,28 @@ struct alignas(64) Gap {
   Index degree_behind = 0;  ///< that face's degree, 0 for a dummy face
   Index valence = 0;        ///< of the umbrella
   int32_t flat = 0;         ///< flatAngle(valence)
-  Index outside = kNone;    ///< encoder only: input corner whose edge is the leaving edge, in the face outside
-  bool queued = false;      ///< in the boundary and not part of the current face
-  bool dummy = false;       ///< a dummy face touches the umbrella
 
   // What contexts want to know of the surroundings, gathered while the region grows, if the statistics ask for it.
-  uint16_t opposite_next = 0;       ///< in the face behind: the valence (up to 14) of the vertex beyond the next gap's
-  uint16_t opposite_own = 0;        ///< in the face behind: the valence of the vertex beyond this gap's own
-  uint32_t neighbours = 0;          ///< edges of the umbrella seen by this gap
-  uint32_t neighbour_valences = 0;  ///< sum of the valences (each up to 200) at their far ends
-  uint32_t angle = 0;               ///< sum over the real faces around it of 1 - 2 / degree, in 1/65536
+  uint64_t met = 0;    ///< of the edges of the umbrella seen by this gap: 2^32 plus the valence at the far end
+  uint32_t angle = 0;  ///< sum over the real faces around it of 1 - 2 / degree, in 1/65536
+
+  // Valences, up to 14.
+  uint16_t capped = 0;         ///< the umbrella's
+  uint16_t opposite_next = 0;  ///< in the face behind: that of the vertex beyond the next gap's
+  uint16_t opposite_own = 0;   ///< in the face behind: that of the vertex beyond this gap's own
+
+  bool queued = false;  ///< in the boundary and not part of the current face
+  bool dummy = false;   ///< a dummy face touches the umbrella
 };
 
-/// Gap records by number, with a bucket queue by free slots: every operation is O(1). Numbers of released gaps are
+/// Gap records by number, with a queue by free slots: every operation is O(1). Numbers of released gaps are
 /// used again, last released first, so that both sides number alike.
 class Gaps {
  public:
-  explicit Gaps(TieRule tie) : oldest_first_(tie == TieRule::kOldestFirst), links_(kBuckets) {
-    for (Index bucket = 0; bucket < kBuckets; ++bucket) links_[bucket] = {bucket, bucket};
+  static constexpr Index kLists = 64;
+
+  explicit Gaps(TieRule tie) : oldest_first_(tie == TieRule::kOldestFirst), links_(kLists) {
+    for (Index list = 0; list < kLists; ++list) links_[list] = {list, list};
     clear();
   }
 
@@ -77,42 +81,47 @@ class Gaps {
     free_ = gap;
   }
 
-  /// Takes the gap with the fewest free slots (64 and more count alike) out of the queue; kNone when it is empty.
-  Index pop() {
-    while (used_ != 0) {
-      const Index bucket = static_cast<Index>(std::countr_zero(used_));
-      const Index link = oldest_first_ ? links_[bucket].before : links_[bucket].after;
-      if (link != bucket) {
-        dequeue(link - kBuckets);
-        return link - kBuckets;
-      }
-      used_ &= used_ - 1;
+  /// The list of a gap with as many free slots: 64 and more count alike.
+  static Index listOf(Index free_slots) { return free_slots < kLists ? free_slots : kLists - 1; }
+
+  /// The lowest list that is not empty; kLists when the queue is empty.
+  Index lowestList() {
+    for (; used_ != 0; used_ &= used_ - 1) {
+      const Index list = static_cast<Index>(std::countr_zero(used_));
+      if (links_[list].after != list) return list;
     }
-    return kNone;
+    return kLists;
+  }
+
+  /// Would a gap of one list that joins the queue now come before all of another?
+  bool comesFirst(Index list, Index other) const { return oldest_first_ ? list < other : list <= other; }
+
+  /// Takes the first gap of a list that is not empty out of the queue.
+  Index pop(Index list) {
+    const Index gap = (oldest_first_ ? links_[list].before : links_[list].after) - kLists;
+    dequeue(gap);
+    return gap;
   }
 
   void enqueue(Index gap) {
-    const Index slots = records_[gap].free_slots, bucket = slots < kBuckets ? slots : kBuckets - 1;
-    const Index link = gap + kBuckets, after = links_[bucket].after;
+    const Index list = listOf(records_[gap].free_slots), link = gap + kLists, after = links_[list].after;
     links_[link].after = after;
-    links_[link].before = bucket;
-    links_[bucket].after = link;
+    links_[link].before = list;
+    links_[list].after = link;
     links_[after].before = link;
-    used_ |= uint64_t{1} << bucket;
+    used_ |= uint64_t{1} << list;
     records_[gap].queued = true;
   }
 
   void dequeue(Index gap) {
-    const Index after = links_[gap + kBuckets].after, before = links_[gap + kBuckets].before;
+    const Index after = links_[gap + kLists].after, before = links_[gap + kLists].before;
     links_[before].after = after;
     links_[after].before = before;
     records_[gap].queued = false;
   }
 
  private:
-  static constexpr Index kBuckets = 64;
-
-  /// Of the queue, newest first: each bucket is a ring through its end. First come the ends, then the gaps.
+  /// Of the queue, newest first: each list is a ring through its end. First come the ends, then the gaps.
   struct Link {
     Index after, before;
   };
@@ -120,7 +129,7 @@ class Gaps {
   [[gnu::noinline]] Index extend() {
     if (high_water_ == records_.size()) {
       records_.resize(std::max<size_t>(64, 2 * high_water_));
-      links_.resize(records_.size() + kBuckets);
+      links_.resize(records_.size() + kLists);
     }
     records_[high_water_] = Gap{};
     return static_cast<Index>(high_water_++);
@@ -128,7 +137,7 @@ class Gaps {
 
   // None of these is an Index: so compilers know that what is written to records leaves them as they are.
   bool oldest_first_;
-  uint64_t used_ = 0;  // buckets that may hold gaps
+  uint64_t used_ = 0;  // lists that may hold gaps
   size_t free_ = kNone, high_water_ = 0;
   std::vector<Gap> records_;
   std::vector<Link> links_;

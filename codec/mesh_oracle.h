@@ -39,14 +39,15 @@ class MeshOracle {
     enter(plans_[next_component_++].seed);
     corner_ = topology_.faces.prev(corner_);  // the first step() leads to the first corner
   }
-  void start(const Gap& gap) {
-    enter(gap.outside);
+  void start(Index gap) {
+    enter(outside_[gap]);
     step();
   }
   void step() { corner_ = topology_.faces.next(corner_); }
-  void cross(Gap& gap, Index number) {
-    gap.outside = topology_.twin[corner_];
-    gap_at_[gap.outside] = number;
+  void cross(Index gap) {
+    if (gap >= outside_.size()) outside_.resize(2 * gap + 64);
+    outside_[gap] = topology_.twin[corner_];
+    gap_at_[outside_[gap]] = gap;
   }
 
   FaceAnswer face() const {
@@ -91,7 +92,8 @@ class MeshOracle {
   const Topology& topology_;
   std::span<const ComponentPlan> plans_;
   std::vector<uint8_t> face_done_, umbrella_known_;
-  std::vector<Index> gap_at_;  // per corner outside the region: the gap whose leaving edge is its edge
+  std::vector<Index> outside_;  // per gap: the corner whose edge is the leaving edge, in the face outside
+  std::vector<Index> gap_at_;   // per corner outside the region: the gap whose leaving edge is its edge
   std::vector<Index> start_corners_, umbrella_order_;
   size_t next_component_ = 0;
   Index face_ = 0, corner_ = 0;

@@ -14,48 +14,59 @@
 
 namespace tutte {
 
-/// An adaptive probability (high 16 bits) and how often it was updated (low 16 bits), in one word.
+/// An adaptive probability (high 16 bits) and the rate at which it learns (low 16 bits), in one word. The rate falls
+/// with every decision, much as if all decisions had the same weight, down to about 1/255.
 class Slot {
  public:
-  int16_t stretched() const { return logistic::kStretch4[word_ >> 20]; }
+  static constexpr int kLeastRate = 257;
+
+  int16_t stretched() const { return stretchedOf(word_); }
   uint32_t probability() const { return word_ >> 16; }
+  uint32_t* word() { return &word_; }
+
+  static int16_t stretchedOf(uint32_t word) { return logistic::kStretch4[word >> 20]; }
 
   void update(bool bit) {
-    const uint32_t seen = word_ & 0xFFFF;
-    const int64_t error = (bit ? 65535 : 0) - static_cast<int64_t>(word_ >> 16);
-    word_ += static_cast<uint32_t>((error * kRate[seen]) >> 16) << 16;
-    word_ += seen < kLimit;
+    const uint32_t flip = bit ? 0xFFFF : 0, rate = word_ & 0xFFFF;
+    uint32_t other = word_ >> 16 ^ flip;
+    other -= other * rate >> 16;
+    word_ = (other ^ flip) << 16 | std::max(rate - (rate * rate >> 17), uint32_t{kLeastRate});
   }
 
  private:
-  static constexpr uint32_t kLimit = 255;
-  // 65536 / (n + 1.9)
-  static constexpr std::array<int32_t, kLimit + 1> kRate = [] {
-    std::array<int32_t, kLimit + 1> rate{};
-    for (uint32_t n = 0; n <= kLimit; ++n) rate[n] = static_cast<int32_t>(655360 / (10 * n + 19));
-    return rate;
-  }();
+  uint32_t word_ = 0x80007FFFu;
+};
 
-  uint32_t word_ = 0x80000000u;
+/// Eight slots in different places.
+class SlotGroup {
+ public:
+  explicit SlotGroup(const std::array<uint32_t*, 8>& at) : at_(at) {
+    for (int i = 0; i < 8; ++i) words_[i] = *at[i];
+  }
+
+  Lanes stretched() const {
+    return Lanes({Slot::stretchedOf(words_[0]), Slot::stretchedOf(words_[1]), Slot::stretchedOf(words_[2]),
+                  Slot::stretchedOf(words_[3]), Slot::stretchedOf(words_[4]), Slot::stretchedOf(words_[5]),
+                  Slot::stretchedOf(words_[6]), Slot::stretchedOf(words_[7])});
+  }
+
+  void update(bool bit) {
+    const Lanes::Halves halves = Lanes::split(words_);
+    const Lanes flip = Lanes::all(static_cast<int16_t>(bit ? -1 : 0)), rate = halves.low;
+    const Lanes other = halves.high ^ flip;
+    const Lanes slower = (rate - rate.highProduct(rate).shifted<1>()).atLeast(Slot::kLeastRate);
+    const auto words = Lanes::join({(other - other.highProduct(rate)) ^ flip, slower});
+    for (int i = 0; i < 8; ++i) *at_[i] = words[i];
+  }
+
+ private:
+  std::array<uint32_t*, 8> at_;
+  std::array<uint32_t, 8> words_;
 };
 
 /// `kInputs` (a multiple of 8) stretched probabilities, each times 4.
 template <int kInputs>
-class Inputs {
- public:
-  explicit Inputs(const std::array<int16_t, kInputs>& inputs)
-      : Inputs(inputs, std::make_index_sequence<kInputs / 8>()) {}
-
-  Lanes operator[](size_t i) const { return lanes_[i]; }
-
- private:
-  template <size_t... i>
-  Inputs(const std::array<int16_t, kInputs>& in, std::index_sequence<i...>)
-      : lanes_{Lanes({in[8 * i], in[8 * i + 1], in[8 * i + 2], in[8 * i + 3], in[8 * i + 4], in[8 * i + 5],
-                      in[8 * i + 6], in[8 * i + 7]})...} {}
-
-  std::array<Lanes, kInputs / 8> lanes_;
-};
+using Inputs = std::array<Lanes, kInputs / 8>;
 
 /// As many weights, 16384 standing for 1.
 template <int kInputs>

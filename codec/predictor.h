@@ -75,14 +75,30 @@ class Predictor {
       slot.update(bit);
       return bit;
     } else {
-      const int16_t matched = match ? match->stretched() : int16_t{0};
-      const Inputs<kInputs> inputs({line_[i]->slot[selectors.node].stretched()..., matched});
+      Slot nobody;
+      const std::array<uint32_t*, kInputs> slots{line_[i]->slot[selectors.node].word()...,
+                                                 (match ? match : &nobody)->word()};
+      SlotGroups groups = groupsOf(slots, std::make_index_sequence<kInputs / 8>());
+      const Inputs<kInputs> inputs = inputsOf(groups, std::make_index_sequence<kInputs / 8>());
       const bool bit = kRich ? codeRich(port, selectors, inputs, match_length, value)
                              : codePlain(port, by_node_[selectors.node], inputs, value);
-      (line_[i]->slot[selectors.node].update(bit), ...);
-      if (match) match->update(bit);
+      for (SlotGroup& group : groups) group.update(bit);
       return bit;
     }
+  }
+
+  using SlotGroups = std::array<SlotGroup, kInputs / 8>;
+
+  template <size_t... g>
+  [[gnu::always_inline]] static SlotGroups groupsOf(const std::array<uint32_t*, kInputs>& at,
+                                                    std::index_sequence<g...>) {
+    return {SlotGroup({at[8 * g], at[8 * g + 1], at[8 * g + 2], at[8 * g + 3], at[8 * g + 4], at[8 * g + 5],
+                       at[8 * g + 6], at[8 * g + 7]})...};
+  }
+
+  template <size_t... g>
+  [[gnu::always_inline]] static Inputs<kInputs> inputsOf(const SlotGroups& groups, std::index_sequence<g...>) {
+    return {groups[g].stretched()...};
   }
 
   template <class Port>

@@ -23,9 +23,9 @@ struct Blind {
   static bool component() { return false; }
   static Index original() { return kNone; }
   static void seed() {}
-  static void start(const Gap&) {}
+  static void start(Index) {}
   static void step() {}
-  static void cross(Gap&, Index) {}
+  static void cross(Index) {}
   static FaceAnswer face() { return {}; }
   static VertexAnswer vertex() { return {}; }
   static SplitAnswer split(const Gaps&) { return {}; }
@@ -101,9 +101,9 @@ class Script {
   }
 
   void seed() { oracle_.seed(); }
-  void start(const Gap& gap) { oracle_.start(gap); }
+  void start(Index gap) { oracle_.start(gap); }
   void step() { oracle_.step(); }
-  void cross(Gap& gap, Index number) { oracle_.cross(gap, number); }
+  void cross(Index gap) { oracle_.cross(gap); }
 
  private:
   const SectionHeader& header_;

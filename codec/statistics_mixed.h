@@ -91,28 +91,33 @@ class MixedStatistics {
   }
 
   template <class Port>
-  Index vertex(Port& port, const VertexQuestion& question, const Gaps& gaps, Index truth) {
+  [[gnu::always_inline]] Index vertex(Port& port, const VertexQuestion& question, const Gaps& gaps, Index truth) {
+    return question.head == kNone ? codeVertex(std::true_type(), port, question, gaps, truth)
+                                  : codeVertex(std::false_type(), port, question, gaps, truth);
+  }
+
+ private:
+  static constexpr Index kLongest = 24;
+
+  template <class Seed, class Port>
+  Index codeVertex(Seed seed, Port& port, const VertexQuestion& question, const Gaps& gaps, Index truth) {
     const Index face = question.face.dummy ? 1 : std::min(question.face.degree, Index{15});
     const Index usual = usual_.of(face);
-    vertices_.enter(Profile::Vertex::keys(VertexFeatures(question, gaps, usual, history_)));
+    vertices_.enter(Profile::Vertex::keys(VertexFeatures(seed, question, gaps, face, usual, history_)));
     const Index expected = match_.expected();
     expected_ = expected < 128 ? expected : MatchModel::kNoSymbol;
     const int situation = static_cast<int>(face * 4 + (question.missing > 1) * 2 + (question.index > 0));
     const auto decide = [&](int node, int step, bool matched, bool value) {
       return this->decide(port, vertices_, {node, situation + 64 * step}, matched, value);
     };
-    const bool seed = question.head == kNone;
     const Index valence = decide(0, 0, expected == usual, truth == usual)
                               ? usual
-                              : codeUnusual(port, usual, seed, truth, expected, decide);
+                              : codeUnusual(port, usual, Seed::value, truth, expected, decide);
     usual_.add(face, valence);
     history_.addValence(valence);
     match_.add(std::min(valence, Index{100}));
     return valence;
   }
-
- private:
-  static constexpr Index kLongest = 24;
 
   template <class Port>
   FaceAnswer codeFace(Port& port, const FaceQuestion& question, const Gaps& gaps, const FaceAnswer& truth) {
@@ -130,8 +135,7 @@ class MixedStatistics {
     faces_.enter(Profile::Face::keys(features));
     const Index symbol = match_.expected(), expected = symbol - 128;
     expected_ = symbol >= 128 ? symbol : MatchModel::kNoSymbol;
-    const int situation =
-        static_cast<int>(features.behind * 3 + std::min<uint64_t>(features.known, 3) - (features.known > 0));
+    const int situation = static_cast<int>(features.behind * 3 + std::min(features.known, 3u) - (features.known > 0));
     port.about(Topic::kHoles);
     if (may_be_dummy && decide(port, faces_, {0, situation}, expected == 1, truth.dummy)) {
       return {question.closed ? known : 3 + dummy_degree_.code(port, truth.degree - 3), true};

@@ -10,6 +10,7 @@
 // While a face is attached, the gaps it uses are out of the queue; so "queued" tells the rest of the boundary from
 // the current face, and no stream can make the walk use a slot twice.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -85,9 +86,9 @@ inline int32_t flatAngle(Index sides) {
 ///   Error fault()                                   why the input cannot go on; kNone while it can
 /// and follows, where it stands on an input mesh, the position of the walk:
 ///   void seed()            before the first face of a component
-///   void start(const Gap&) at the far end of the edge that leaves the gap, in the face outside
+///   void start(Index gap)  at the far end of the edge that leaves the gap, in the face outside
 ///   void step()            on to the next corner of the face
-///   void cross(Gap&, Index gap)  the gap's leaving edge becomes the edge from the next corner back to this one
+///   void cross(Index gap)  the gap's leaving edge becomes the edge from the next corner back to this one
 template <class Script>
 class Walk {
  public:
@@ -108,7 +109,7 @@ class Walk {
     Error error = Error::kNone;
     while (error == Error::kNone && script_.component()) {
       error = seed();
-      for (Index gap; error == Error::kNone && (gap = gaps_.pop()) != kNone;) error = attach(gap);
+      while (error == Error::kNone && !finished()) error = attach();
     }
     degrees_.finish();
     corners_.finish();
@@ -127,164 +128,207 @@ class Walk {
   const std::vector<uint8_t>& onBoundary() const { return on_boundary_; }
 
  private:
-  // The face that is being attached, while it is. A local variable: the inner loop keeps its fields in registers.
-  struct Current {
-    VertexQuestion question;
-    Index tail = kNone;           // where the face's stretch of the boundary begins, a split's rest if there was one
-    uint16_t before_valence = 0;  // of the vertex before question.current in the face, up to 14
-    bool is_new = false;          // question.current's leaving edge belongs to the face
+  // The face that is being attached, while it is. Always a local variable whose address nobody outside keeps, so that
+  // the inner loop has its fields in registers.
+  struct Face {
+    FaceAnswer answer;
+    Index start = kNone, second = kNone;  // where it is attached
+    Index head = kNone, tail = kNone;     // where its part on the boundary ends
+    Index edges = 0;                      // known ones
+    bool closed = false;                  // they are all
+    Index missing = 0;                    // vertices
+    Index found = 0;                      // missing vertices that were told
+    Index current = kNone;                // the vertex before the next missing one
+    Index before_tail = kNone;
+    Index stretch = kNone;        // where the face's stretch of the boundary begins, a split's rest if there was one
+    uint16_t before_current = 0;  // valence, up to 14, of the vertex before the current one in the face
+    bool is_new = false;          // the current vertex's leaving edge belongs to the face
+    uint64_t valence_sum = 0;
+    int64_t angle = 0;
+    Index first_corner = 0, corner = 0;  // of the face, and the next one
     Error error = Error::kNone;
+
+    VertexQuestion question() const { return {answer, head, current, before_tail, found, missing, valence_sum, angle}; }
   };
 
   // The first face of a component. All its vertices are new.
   Error seed() {
     gaps_.clear();
     script_.seed();
-    Current current;
-    const FaceAnswer face = script_.face({}, gaps_);
-    if (face.dummy) return Error::kMalformed;
-    if (const Error error = openFace(face, 0); error != Error::kNone) return error;
-    current.question.face = face;
-    current.question.missing = face.degree;
-    while (current.question.missing > 0) {
-      const VertexAnswer vertex = script_.vertex(current.question, gaps_);
-      if (const Error error = addVertex(vertex, current); error != Error::kNone) return error;
-      if (current.tail == kNone) current.tail = current.question.current;
+    Face face;
+    face.answer = script_.face({}, gaps_);
+    if (face.answer.dummy) return Error::kMalformed;
+    if (!open(face)) return face.error;
+    face.missing = face.answer.degree;
+    while (face.missing > 0) {
+      const VertexAnswer vertex = script_.vertex(face.question(), gaps_);
+      if (vertex.valence == 0) return Error::kMalformed;
+      if (!addVertex(vertex, face)) return face.error;
+      if (face.stretch == kNone) face.stretch = face.current;
     }
-    closeBoundary(current.tail, current.question.current, corners_.size() - 1, current.before_valence, face);
-    requeue(current.tail, current.question.current, face);
+    closeBoundary(face.stretch, face.current, face.corner - 1, face);
+    leave(face.stretch, face.current, face.answer);
+    corners_.setSize(face.corner);
     return Error::kNone;
   }
 
-  // One more face, along the edge that leaves `start`, which is out of the queue.
-  Error attach(const Index start) {
-    script_.start(gaps_[start]);
-    Current current;
-    const Index second = gaps_[start].next;
-    --gaps_[start].free_slots;
-    know(gaps_[start], current);
-    if (!take(second, current)) return Error::kMalformed;
-    Index head = start, tail = second, edges = 1;
-    bool closed = false;
-    while (gaps_[tail].free_slots == 0) {
-      ++edges;
-      const Index next = gaps_[tail].next;
-      if (next == start) {
-        closed = true;
-        break;
+  // No boundary is left.
+  bool finished() { return last_.head == kNone && gaps_.lowestList() == Gaps::kLists; }
+
+  // One more face.
+  Error attach() {
+    Face face;
+    if (!choose(face)) return Error::kMalformed;
+    const Index start = face.start;
+    script_.start(start);
+    face.edges = 1;
+    use(gaps_[start], face);
+    use(gaps_[face.second], face);
+    if (!reachOut(face)) return Error::kMalformed;
+    face.answer = script_.face({start, face.second, face.head, face.tail, face.edges, face.closed}, gaps_);
+    if (!open(face)) return face.error;
+    const Index stop = face.closed ? start : face.tail;
+    emitKnown(gaps_[start], face);
+    for (Index gap = face.second; gap != stop; gap = gaps_[gap].next) emitKnown(gaps_[gap], face);
+    if (!face.closed && !fill(face)) return face.error;
+    release(face, stop);
+    corners_.setSize(face.corner);
+    return Error::kNone;
+  }
+
+  // Where the face is attached: mostly where the last one ended, and then two of its gaps need not be queued at all.
+  [[gnu::always_inline]] bool choose(Face& face) {
+    const Left left = last_;
+    last_.head = kNone;
+    const Index list = gaps_.lowestList();
+    const bool go_on = left.head != kNone && gaps_.comesFirst(left.list, list);
+    if (go_on) {
+      face.start = left.head;
+      face.second = gaps_[left.head].next;
+      for (Index gap = left.tail; gap != face.second; gap = gaps_[gap].prev) gaps_.enqueue(gap);
+    } else {
+      if (left.head != kNone) requeue(left.tail, left.head);
+      face.start = gaps_.pop(gaps_.lowestList());
+      face.second = gaps_[face.start].next;
+      if (!gaps_[face.second].queued) return false;
+      gaps_.dequeue(face.second);
+    }
+    face.head = face.start;
+    face.tail = face.second;
+    return true;
+  }
+
+  // Follows the boundary both ways while the face uses up gaps.
+  [[gnu::always_inline]] bool reachOut(Face& face) {
+    while (gaps_[face.tail].free_slots == 0) {
+      ++face.edges;
+      const Index next = gaps_[face.tail].next;
+      if (next == face.start) {
+        face.closed = true;
+        return gaps_[next].free_slots == 0;
       }
-      if (!take(next, current)) return Error::kMalformed;
-      tail = next;
+      if (!take(next, face)) return false;
+      face.tail = next;
       script_.step();
     }
-    while (!closed && gaps_[head].free_slots == 0) {
-      ++edges;
-      head = gaps_[head].prev;
-      if (!take(head, current)) return Error::kMalformed;
+    while (gaps_[face.head].free_slots == 0) {
+      ++face.edges;
+      face.head = gaps_[face.head].prev;
+      if (!take(face.head, face)) return false;
     }
-    const FaceAnswer face = script_.face({start, second, head, tail, edges, closed}, gaps_);
-    if (const Error error = openFace(face, edges); error != Error::kNone) return error;
-    if (closed != (face.degree == edges)) return Error::kMalformed;
-    const Index first_corner = corners_.size(), splits = splits_, stop = closed ? start : tail;
-    emitKnown(start, face);
-    for (Index gap = second; gap != stop; gap = gaps_[gap].next) emitKnown(gap, face);
-    if (closed) {
-      if (gaps_[start].free_slots != 0) return Error::kMalformed;
-      gaps_.release(start);
-    } else {
-      VertexQuestion& question = current.question;
-      question.face = face;
-      question.head = head;
-      question.current = current.tail = tail;
-      question.before_tail = gaps_[tail].prev;
-      question.missing = face.degree - edges - 1;
-      const uint16_t after_head = capped(gaps_[gaps_[head].next].valence);
-      current.before_valence = capped(gaps_[question.before_tail].valence);
-      emit(gaps_[tail], face);
-      while (question.missing > 0) {
-        const VertexAnswer vertex = script_.vertex(question, gaps_);
-        if (vertex.valence != 0) {
-          if (const Error error = addVertex(vertex, current); error != Error::kNone) return error;
-        } else {
-          current = split(current);
-          if (current.error != Error::kNone) return current.error;
-        }
-      }
-      const Index last_corner = corners_.size() - 1;
-      for (Index gap = head; gap != start; gap = gaps_[gap].next) emitKnown(gap, face);
-      Gap& last = gaps_[question.current];
-      if (last.free_slots == 0) return Error::kMalformed;
-      if (Script::kGathers && current.is_new) last.opposite_own = capped(gaps_[head].valence);
-      closeBoundary(head, question.current, last_corner, current.before_valence, face);
-      if (Script::kGathers) gaps_[head].opposite_own = after_head;
-      if (splits_ != splits && !finishSplits(first_corner, face)) return Error::kMalformed;
-      requeue(current.tail, head, face);
-      if (start != head) gaps_.release(start);
+    return true;
+  }
+
+  // The rest of a face that is not closed: the missing vertices from its tail round to its head.
+  [[gnu::always_inline]] bool fill(Face& face) {
+    face.current = face.stretch = face.tail;
+    face.before_tail = gaps_[face.tail].prev;
+    face.missing = face.answer.degree - face.edges - 1;
+    const Index splits = splits_;
+    const uint16_t after_head = Script::kGathers ? gaps_[gaps_[face.head].next].capped : uint16_t{0};
+    if (Script::kGathers) face.before_current = gaps_[face.before_tail].capped;
+    emit(gaps_[face.tail], face);
+    while (face.missing > 0) {
+      const VertexAnswer vertex = script_.vertex(face.question(), gaps_);
+      if (vertex.valence == 0) face = split(face);
+      if (vertex.valence == 0 ? face.error != Error::kNone : !addVertex(vertex, face)) return false;
     }
-    for (Index gap = second; gap != stop;) {
+    const Index last_corner = face.corner - 1;
+    for (Index gap = face.head; gap != face.start; gap = gaps_[gap].next) emitKnown(gaps_[gap], face);
+    Gap &head = gaps_[face.head], &last = gaps_[face.current];
+    face.error = Error::kMalformed;
+    if (last.free_slots == 0 || pinched_) return false;
+    if (Script::kGathers && face.is_new) last.opposite_own = head.capped;
+    closeBoundary(face.head, face.current, last_corner, face);
+    if (Script::kGathers) head.opposite_own = after_head;
+    if (splits_ != splits && !finishSplits(face)) return false;
+    leave(face.stretch, face.head, face.answer);
+    return true;
+  }
+
+  // The gaps that the face used up. `stop`: where those after the start end.
+  [[gnu::always_inline]] void release(const Face& face, Index stop) {
+    if (face.start != face.head || face.closed) gaps_.release(face.start);
+    for (Index gap = face.second; gap != stop;) {
       const Index next = gaps_[gap].next;
       gaps_.release(gap);
       gap = next;
     }
-    if (start != head) {
-      for (Index gap = gaps_[start].prev; gap != head; gap = gaps_[gap].prev) gaps_.release(gap);
-    }
-    return pinched_ ? Error::kMalformed : Error::kNone;
+    if (face.start == face.head) return;
+    for (Index gap = gaps_[face.start].prev; gap != face.head; gap = gaps_[gap].prev) gaps_.release(gap);
   }
 
   // A vertex that nobody knew; becomes the current one.
-  Error addVertex(const VertexAnswer& vertex, Current& current) {
-    if (const Error fault = script_.fault(); fault != Error::kNone) return fault;
-    if (vertex.valence == 0) return Error::kMalformed;
-    if (umbrellas_ >= limits_.max_corners) return Error::kLimitExceeded;
+  [[gnu::always_inline]] bool addVertex(const VertexAnswer& vertex, Face& face) {
+    face.error = script_.fault();
+    if (face.error != Error::kNone) return false;
+    face.error = Error::kLimitExceeded;
+    if (umbrellas_ >= limits_.max_corners) return false;
     const Index gap = gaps_.create();
     Gap& record = gaps_[gap];
     record.umbrella = static_cast<Index>(umbrellas_++);
     record.valence = vertex.valence;
     record.free_slots = vertex.valence - 1;
     record.flat = flatAngle(vertex.valence);
-    VertexQuestion& question = current.question;
-    if (question.current != kNone) {
-      closeBoundary(gap, question.current, corners_.size() - 1, current.before_valence, question.face);
-    }
+    record.capped = static_cast<uint16_t>(std::min(vertex.valence, Index{14}));
+    if (face.current != kNone) closeBoundary(gap, face.current, face.corner - 1, face);
     if (vertex.dummy) dummy_umbrellas_.push_back(record.umbrella);
-    become(gap, current, true);
-    --question.missing;
-    ++question.index;
-    know(record, current);
-    return Error::kNone;
+    become(gap, face, true);
+    --face.missing;
+    ++face.found;
+    know(record, face);
+    return true;
   }
 
   // A vertex of the region; becomes the current one. Where it keeps no free slot on its far side, the face goes on
   // along the boundary.
-  [[gnu::noinline]] Current split(Current current) {
-    VertexQuestion& question = current.question;
-    const SplitAnswer answer = script_.split(question, gaps_);
-    current.error = script_.fault();
-    if (current.error != Error::kNone) return current;
-    current.error = Error::kMalformed;
-    if (answer.gap >= gaps_.highWater() || !gaps_[answer.gap].queued) return current;
+  [[gnu::noinline]] Face split(Face face) {
+    const SplitAnswer answer = script_.split(face.question(), gaps_);
+    face.error = script_.fault();
+    if (face.error != Error::kNone) return face;
+    face.error = Error::kMalformed;
+    if (answer.gap >= gaps_.highWater() || !gaps_[answer.gap].queued) return face;
     const Index slots = gaps_[answer.gap].free_slots;
-    if (slots < 2 || answer.slots_after > slots - 2) return current;
+    if (slots < 2 || answer.slots_after > slots - 2) return face;
     ++splits_;
     const Index before = divide(answer);
-    closeBoundary(before, question.current, corners_.size() - 1, current.before_valence, question.face);
-    segments_.push_back({current.tail, before});
-    become(answer.gap, current, false);
-    --question.missing;
-    ++question.index;
-    know(gaps_[question.current], current);
-    while (gaps_[question.current].free_slots == 0) {
-      const Index used = question.current, next = gaps_[used].next;
-      if (question.missing == 0 || !take(next, current)) return current;
-      pairLast(gaps_[used].behind, question.face);
+    closeBoundary(before, face.current, face.corner - 1, face);
+    segments_.push_back({face.stretch, before});
+    become(answer.gap, face, false);
+    --face.missing;
+    ++face.found;
+    know(gaps_[face.current], face);
+    while (gaps_[face.current].free_slots == 0) {
+      const Index used = face.current, next = gaps_[used].next;
+      if (face.missing == 0 || !take(next, face)) return face;
+      pairLast(gaps_[used].behind, face);
       gaps_.release(used);
-      become(next, current, false);
-      --question.missing;
+      become(next, face, false);
+      --face.missing;
     }
-    current.tail = question.current;
-    current.error = Error::kNone;
-    return current;
+    face.stretch = face.current;
+    face.error = Error::kNone;
+    return face;
   }
 
   // Cuts a gap in two around the slot that the face takes: a new one keeps the arriving edge, the old one the leaving.
@@ -299,85 +343,91 @@ class Walk {
   }
 
   // After a face with splits. False: it visits an umbrella twice, which no encoder writes.
-  [[gnu::noinline]] bool finishSplits(Index first_corner, const FaceAnswer& face) {
-    for (const Segment& segment : segments_) requeue(segment.tail, segment.head, face);
+  [[gnu::noinline]] bool finishSplits(const Face face) {
+    for (const Segment& segment : segments_)
+      gather(segment.tail, segment.head, face.answer), requeue(segment.tail, segment.head);
     segments_.clear();
     last_face_.resize(umbrellas_, kNone);
-    for (Index corner = first_corner; corner < corners_.size(); ++corner) {
-      Index& last = last_face_[corners_.umbrella(corner)];
+    for (Index corner = face.first_corner; corner < face.corner; ++corner) {
+      Index& last = last_face_[corners_.umbrellas()[corner]];
       if (last == degrees_.size()) return false;
       last = degrees_.size();
     }
     return true;
   }
 
-  void become(Index gap, Current& current, bool is_new) {
+  [[gnu::always_inline]] void become(Index gap, Face& face, bool is_new) {
     script_.step();
     const Gap& record = gaps_[gap];
-    if (Script::kGathers && current.question.current != kNone) {
-      Gap& before = gaps_[current.question.current];
-      if (current.is_new) before.opposite_own = capped(record.valence);
-      current.before_valence = capped(before.valence);
+    if (Script::kGathers && face.current != kNone) {
+      Gap& before = gaps_[face.current];
+      if (face.is_new) before.opposite_own = record.capped;
+      face.before_current = before.capped;
     }
-    current.is_new = is_new;
-    current.question.current = gap;
-    emit(record, current.question.face);
+    face.is_new = is_new;
+    face.current = gap;
+    corners_.makeRoom(face.corner + face.edges + 2);
+    emit(record, face);
   }
 
-  static void know(const Gap& gap, Current& current) {
-    current.question.valence_sum += gap.valence;
-    current.question.angle += gap.flat;
+  [[gnu::always_inline]] static void know(const Gap& gap, Face& face) {
+    face.valence_sum += gap.valence;
+    face.angle += gap.flat;
   }
 
   // Uses a slot of a gap for the current face.
-  bool take(Index gap, Current& current) {
-    Gap& record = gaps_[gap];
-    if (!record.queued) return false;
+  [[gnu::always_inline]] bool take(Index gap, Face& face) {
+    if (!gaps_[gap].queued) return false;
     gaps_.dequeue(gap);
-    --record.free_slots;
-    know(record, current);
+    use(gaps_[gap], face);
     return true;
   }
 
+  [[gnu::always_inline]] static void use(Gap& gap, Face& face) {
+    --gap.free_slots;
+    know(gap, face);
+  }
+
   // The boundary now runs from `gap` to `next`; the face lies behind, in which next has the corner `next_corner`.
-  void closeBoundary(Index gap, Index next, Index next_corner, uint16_t before_valence, const FaceAnswer& face) {
+  [[gnu::always_inline]] void closeBoundary(Index gap, Index next, Index next_corner, const Face& face) {
     Gap& record = gaps_[gap];
     Gap& other = gaps_[next];
     record.next = next;
     other.prev = gap;
-    record.behind = face.dummy ? kNone : next_corner;
-    record.degree_behind = face.dummy ? 0 : face.degree;
+    record.behind = face.answer.dummy ? kNone : next_corner;
+    record.degree_behind = face.answer.dummy ? 0 : face.answer.degree;
     if (Script::kGathers) {
-      record.opposite_next = before_valence;
-      meet(record, other.valence);
-      meet(other, record.valence);
+      record.opposite_next = face.before_current;
+      record.met += (uint64_t{1} << 32) + other.valence;
+      other.met += (uint64_t{1} << 32) + record.valence;
     }
-    script_.cross(record, gap);
+    script_.cross(gap);
   }
 
-  static uint16_t capped(Index valence) { return static_cast<uint16_t>(valence < 14 ? valence : 14); }
-
-  static void meet(Gap& gap, Index valence) {
-    gap.neighbour_valences += valence < 200 ? valence : 200;
-    ++gap.neighbours;
-  }
-
-  Error openFace(const FaceAnswer& face, Index edges) {
-    if (const Error fault = script_.fault(); fault != Error::kNone) return fault;
-    if (face.degree < least_degree_ || face.degree < edges) return Error::kMalformed;
+  // Checks the answer, and begins the face.
+  [[gnu::always_inline]] bool open(Face& face) {
+    const FaceAnswer& answer = face.answer;
+    face.error = script_.fault();
+    if (face.error != Error::kNone) return false;
+    face.error = Error::kMalformed;
+    if (answer.degree < least_degree_ || answer.degree < face.edges) return false;
+    if (face.closed != (answer.degree == face.edges)) return false;
+    face.error = Error::kLimitExceeded;
+    face.first_corner = face.corner = corners_.size();
     // Every corner of a dummy face lies against a corner of the mesh.
-    if (face.degree > limits_.max_corners - (face.dummy ? 0 : corners_.size())) return Error::kLimitExceeded;
-    if (face.dummy) return Error::kNone;
-    if (degrees_.size() >= limits_.max_faces) return Error::kLimitExceeded;
-    degrees_.add(face.degree);
-    return Error::kNone;
+    if (answer.degree > limits_.max_corners - (answer.dummy ? 0 : face.corner)) return false;
+    corners_.makeRoom(face.corner + face.edges + 2);
+    if (answer.dummy) return true;
+    if (degrees_.size() >= limits_.max_faces) return false;
+    degrees_.add(answer.degree);
+    return true;
   }
 
-  void emit(const Gap& gap, const FaceAnswer& face) {
-    if (face.dummy) {
+  [[gnu::always_inline]] void emit(const Gap& gap, Face& face) {
+    if (face.answer.dummy) {
       touchBoundary(gap.umbrella);
     } else {
-      corners_.add(gap.umbrella);
+      corners_.umbrellas()[face.corner++] = gap.umbrella;
     }
   }
 
@@ -387,28 +437,52 @@ class Walk {
     on_boundary_[umbrella] = 1;
   }
 
-  void emitKnown(Index gap, const FaceAnswer& face) {
-    const Gap& record = gaps_[gap];
-    emit(record, face);
-    pairLast(record.behind, face);
+  [[gnu::always_inline]] void emitKnown(const Gap& gap, Face& face) {
+    emit(gap, face);
+    pairLast(gap.behind, face);
   }
 
   // The last corner's edge is the other side of the edge of `corner`.
-  void pairLast(Index corner, const FaceAnswer& face) {
-    if (!face.dummy && corner != kNone) corners_.pairLast(corner);
+  [[gnu::always_inline]] void pairLast(Index corner, const Face& face) {
+    if (face.answer.dummy || corner == kNone) return;
+    corners_.twins()[face.corner - 1] = corner;
+    corners_.twins()[corner] = face.corner - 1;
   }
 
-  // Queues the gaps of the boundary from `tail` back to `head`, along the current face.
-  void requeue(Index tail, Index head, const FaceAnswer& face) {
+  // Ends a face that leaves the boundary from `tail` back to `head`.
+  [[gnu::always_inline]] void leave(Index tail, Index head, const FaceAnswer& face) {
+    const Index others = gather(tail, head, face), list = Gaps::listOf(gaps_[head].free_slots);
+    last_ = {tail, head, list};
+    if (gaps_.comesFirst(list, others)) return;
+    requeue(tail, head);
+    last_.head = kNone;
+  }
+
+  // Notes the face in the gaps from `tail` back to `head`. Returns the lowest list of all but head.
+  [[gnu::always_inline]] Index gather(Index tail, Index head, const FaceAnswer& face) {
     const uint32_t angle = face.dummy ? 0 : static_cast<uint32_t>(flatAngle(face.degree));
+    Index least = Gaps::kLists;
     for (Index gap = tail;; gap = gaps_[gap].prev) {
       Gap& record = gaps_[gap];
       if (Script::kGathers) record.angle += angle;
       if (face.dummy) record.dummy = true;
+      if (gap == head) return least;
+      least = std::min(least, Gaps::listOf(record.free_slots));
+    }
+  }
+
+  [[gnu::always_inline]] void requeue(Index tail, Index head) {
+    for (Index gap = tail;; gap = gaps_[gap].prev) {
       gaps_.enqueue(gap);
       if (gap == head) return;
     }
   }
+
+  // What the last face left of the boundary, when that is not queued yet.
+  struct Left {
+    Index tail = kNone, head = kNone;
+    Index list = 0;  // which the head would join, and come before all others
+  };
 
   // A stretch of the boundary along the current face, from a split back.
   struct Segment {
@@ -424,7 +498,8 @@ class Walk {
   CornerAppender corners_;            // likewise
   std::vector<uint8_t> on_boundary_;  // as far as a dummy face was met
   std::vector<Index> dummy_umbrellas_;
-  std::vector<Index> last_face_;   // per umbrella, as far as there were splits: the last face with splits, plus 1
+  std::vector<Index> last_face_;  // per umbrella, as far as there were splits: the last face with splits, plus 1
+  Left last_;
   std::vector<Segment> segments_;  // of the current face
   size_t umbrellas_ = 0;
   bool pinched_ = false;  // two dummy faces, or one twice, touch an umbrella: never in a valid stream

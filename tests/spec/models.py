@@ -145,14 +145,16 @@ def squashed(value):
 
 class Slot:
     def __init__(self):
-        self.p, self.seen = 32768, 0
+        self.p, self.rate = 32768, 32767
 
     def stretched(self):
         return STRETCH[self.p >> 4]
 
     def update(self, bit):
-        self.p += ((65535 if bit else 0) - self.p) * (655360 // (10 * self.seen + 19)) >> 16
-        self.seen = min(self.seen + 1, 255)
+        other = 65535 - self.p if bit else self.p
+        other -= other * self.rate >> 16
+        self.p = 65535 - other if bit else other
+        self.rate = max(self.rate - (self.rate * self.rate >> 17), 257)
 
 
 class Mixer:

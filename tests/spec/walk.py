@@ -39,7 +39,7 @@ class Gap:
 
     def meet(self, other):
         self.neighbours += 1
-        self.neighbour_valences += min(other.valence, 200)
+        self.neighbour_valences += other.valence
 
 
 def capped(gap):
