@@ -21,8 +21,9 @@ using SurfaceNormals = std::array<Vector3, kWeightings>;  ///< each of length 2^
 inline std::vector<SurfaceNormals> surfaceNormals(const ValueGraph& graph, Places places) {
   constexpr int64_t kMostArea = int64_t{1} << 61;
   std::vector<SurfaceNormals> sums(graph.siteCount(), SurfaceNormals{});
-  for (Index begin = 0; begin < graph.cornerCount(); begin = graph.faceEnd(begin)) {
-    const Index end = graph.faceEnd(begin);
+  for (Index begin = 0, end; begin < graph.cornerCount(); begin = end) {
+    for (end = begin + 1; graph.next(end - 1) == end; ++end) {
+    }
     if (end - begin < 3) continue;
     Vector3 normal{};
     for (Index c = begin + 1; c + 1 < end; ++c) {
@@ -54,8 +55,7 @@ inline std::vector<SurfaceNormals> surfaceNormals(const ValueGraph& graph, Place
 class DirectionGuide {
  public:
   /// Without places (an empty span), only the neighbours count. `max` is twice the octahedron's centre.
-  DirectionGuide(const ValueGraph& graph, const std::vector<Node<2>>& nodes, std::span<const int32_t> places,
-                 int32_t max)
+  DirectionGuide(const ValueGraph& graph, const Nodes<2>& nodes, std::span<const int32_t> places, int32_t max)
       : graph_(graph), nodes_(nodes), states_(graph.siteCount()), centre_(max / 2) {
     if (places.empty()) return;
     const std::vector<SurfaceNormals> surface = surfaceNormals(graph, Places(places));
@@ -66,12 +66,12 @@ class DirectionGuide {
     }
   }
 
-  void refine(Index site, Stencil<2>& stencil) {
+  void refine(Index site, Stencil<2, int32_t>& stencil) {
     std::array<int64_t, kCandidates> errors{};
     Vector3 sum{}, deviation{};
     int64_t count = 0, inward = 0;
     const auto weigh = [&](Index neighbour) {
-      if (!nodes_[neighbour].known) return;
+      if (!nodes_.known(neighbour)) return;
       const State& state = states_[neighbour];
       for (int k = 0; k < kCandidates; ++k) errors[k] += state.errors[k];
       for (int i = 0; i < 3; ++i) {
@@ -81,11 +81,11 @@ class DirectionGuide {
       inward += state.inward;
       ++count;
     };
-    for (const Index corner : graph_.cornersOf(site)) {
+    graph_.forCorners(site, [&](Index corner) {
       weigh(graph_.site(graph_.next(corner)));
       const Index prev = graph_.prev(corner);
       if (graph_.twin(prev) == kNone) weigh(graph_.site(prev));
-    }
+    });
     turn(states_[site], count > 0 ? 2 * inward > count : last_inward_);
     predict(states_[site], sum, deviation, count, stencil.base);
     if (count > 0 || surfaceOf(states_[site], kEven) != Vector3{}) choose(errors, stencil);
@@ -93,7 +93,7 @@ class DirectionGuide {
 
   void learn(Index site, const std::array<int32_t, 2>& value) {
     State& state = states_[site];
-    const Vec<2> truth = {int64_t{value[0]} << kFraction, int64_t{value[1]} << kFraction};
+    const Vec<2, int32_t> truth = {value[0] << kFraction, value[1] << kFraction};
     for (int k = 0; k < kCandidates; ++k) state.errors[k] = static_cast<uint32_t>(distance(truth, bases_[k]));
     const Vector3 direction = fromOctahedron(value[0], value[1], centre_);
     for (int i = 0; i < 3; ++i) state.direction[i] = static_cast<int16_t>(direction[i]);
@@ -126,7 +126,7 @@ class DirectionGuide {
   }
 
   void predict(const State& state, const Vector3& sum, const Vector3& deviation, int64_t count,
-               const Vec<2>& fallback) {
+               const Vec<2, int32_t>& fallback) {
     bases_.fill(fallback);
     for (int k = 0; k < kWeightings; ++k) {
       const Vector3 normal = surfaceOf(state, k);
@@ -140,10 +140,12 @@ class DirectionGuide {
 
   void project(int candidate, const Vector3& direction) {
     const Vector3 shorter = shortened(direction, 24);
-    if (shorter != Vector3{}) bases_[candidate] = toOctahedron(shorter, centre_, kFraction);
+    if (shorter == Vector3{}) return;
+    const auto [s, t] = toOctahedron(shorter, centre_, kFraction);
+    bases_[candidate] = {static_cast<int32_t>(s), static_cast<int32_t>(t)};
   }
 
-  void choose(const std::array<int64_t, kCandidates>& errors, Stencil<2>& stencil) {
+  void choose(const std::array<int64_t, kCandidates>& errors, Stencil<2, int32_t>& stencil) {
     int best = 0;
     for (int k = 1; k < kCandidates; ++k) best = errors[k] < errors[best] ? k : best;
     int second = best == 0 ? 1 : 0;
@@ -151,17 +153,17 @@ class DirectionGuide {
     stencil.adopt(Source::kAcrossTriangle, bases_[best], std::span(&bases_[best], 1));
     stencil.lean = bases_[second];
     for (int i = 0; i < 2; ++i) {
-      const int64_t off = bases_[second][i] - bases_[best][i];
+      const int32_t off = bases_[second][i] - bases_[best][i];
       stencil.spread[i] = off < 0 ? -off : off;
     }
   }
 
   const ValueGraph& graph_;
-  const std::vector<Node<2>>& nodes_;
+  const Nodes<2>& nodes_;
   std::vector<State> states_;
   const int64_t centre_;
   bool last_inward_ = false;
-  std::array<Vec<2>, kCandidates> bases_{};  // of the current site
+  std::array<Vec<2, int32_t>, kCandidates> bases_{};  // of the current site
 };
 
 }  // namespace tutte::values

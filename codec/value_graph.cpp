@@ -37,39 +37,41 @@ class Partition {
 
 }  // namespace
 
-void ValueGraph::addCorners(const Connectivity& mesh) {
-  corners_.resize(mesh.umbrellas.size());
-  Index begin = 0;
+ValueGraph::ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count)
+    : corner_count_(static_cast<Index>(sites.size())), corners_(new Corner[sites.size()]), first_(site_count, kNone) {
+  addCorners(mesh, sites);
+  if (sites.data() != mesh.umbrellas.data()) dropSeamTwins();
+  linkCorners();
+}
+
+void ValueGraph::addCorners(const Connectivity& mesh, std::span<const Index> sites) {
+  const auto shapeOf = [](Index back, Index forth, Index degree) {
+    return back << 20 | (forth & 0xFFF) << 8 | std::min(degree, kMostDegree);
+  };
+  Corner* corner = corners_.get();
+  const Index *site = sites.data(), *twin = mesh.twins.data();
   for (const Index degree : mesh.face_degrees) {
-    const Index end = begin + degree;
-    for (Index c = begin; c < end; ++c) corners_[c] = {0, mesh.twins[c], begin, end};
-    begin = end;
+    if (degree == 0) continue;
+    const Index wrap = degree - 1 <= kMostStep ? degree - 1 : 0, step = degree > 1;
+    *corner++ = {*site++, *twin++, shapeOf(wrap, step, degree), kNone};
+    for (Index i = 2; i < degree; ++i) *corner++ = {*site++, *twin++, shapeOf(~0u, 1, degree), kNone};
+    if (degree > 1) *corner++ = {*site++, *twin++, shapeOf(~0u, 0u - wrap, degree), kNone};
   }
 }
 
 void ValueGraph::dropSeamTwins() {
-  for (Index c = 0; c < corners_.size(); ++c) {
-    Corner& corner = corners_[c];
-    if (corner.twin == kNone) continue;
-    if (site(corner.twin) != site(next(c)) || site(next(corner.twin)) != corner.site) corner.twin = kNone;
+  for (Index c = 0; c < cornerCount(); ++c) {
+    Index& twin = corners_[c].twin;
+    if (twin != kNone && (site(twin) != site(next(c)) || site(next(twin)) != site(c))) twin = kNone;
   }
 }
 
-void ValueGraph::addCornersOfSites() {
-  first_.assign(size_t{site_count_} + 1, 0);
-  const auto forEach = [&](auto&& visit) {
-    for (Index c = 0; c < corners_.size(); ++c) {
-      if (corners_[c].end - corners_[c].begin >= 3) visit(c, corners_[c].site);
-    }
-  };
-  forEach([&](Index, Index site) { ++first_[site]; });
-  Index total = 0;
-  for (Index& slot : first_) total += std::exchange(slot, total);
-  around_.resize(total);
-  forEach([&](Index corner, Index site) { around_[first_[site]++] = corner; });
-  // Each entry has moved to its end, which is the next one's beginning.
-  std::copy_backward(first_.begin(), first_.end() - 1, first_.end());
-  first_[0] = 0;
+void ValueGraph::linkCorners() {
+  Corner* const corners = corners_.get();
+  Index* const first = first_.data();
+  for (Index c = cornerCount(); c-- > 0;) {
+    if ((corners[c].shape & kMostDegree) >= 3) corners[c].following = std::exchange(first[corners[c].site], c);
+  }
 }
 
 WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
@@ -96,95 +98,6 @@ WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges,
     if (wedge != wedges[c]) partition.join(wedge, wedges[c]);
   }
   return std::move(partition).number();
-}
-
-namespace {
-
-constexpr Index kScannedDegree = 32;  // larger faces are not searched at every step: that would be quadratic
-
-int levelOf(Index score) { return score < 2 ? 0 : score < 4 ? 1 : score < 8 ? 2 : score < 16 ? 3 : score < 32 ? 4 : 5; }
-
-}  // namespace
-
-SiteOrder::SiteOrder(const ValueGraph& graph)
-    : graph_(graph), score_(graph.siteCount(), 0), known_(graph.cornerCount(), 0) {}
-
-Index SiteOrder::next() {
-  Index site = pop();
-  if (site == kNone) {
-    while (score_[seed_] == kKnown) ++seed_;
-    site = seed_;
-  }
-  score_[site] = kKnown;
-  for (const Index corner : graph_.cornersOf(site)) reveal(corner);
-  return site;
-}
-
-Index SiteOrder::pop() {
-  while (top_ >= 0) {
-    std::vector<Index>& stack = stacks_[top_];
-    if (stack.empty()) {
-      --top_;
-      continue;
-    }
-    const Index site = stack.back();
-    stack.pop_back();
-    if (score_[site] != kKnown) return site;
-  }
-  return kNone;
-}
-
-// One more corner of a face is known: its unknown ones become more urgent.
-void SiteOrder::reveal(Index corner) {
-  const Index known = ++known_[graph_.faceBegin(corner)];
-  const Index degree = graph_.degree(corner);
-  if (degree > 4 && known >= 3) return revealPolygon(corner, known, degree);
-  if (degree == 4 && known == 3) {
-    for (Index c = graph_.faceBegin(corner); c < graph_.faceEnd(corner); ++c) {
-      if (!isKnown(c)) add(c, 16);
-    }
-    return;
-  }
-  for (const Index c : {graph_.next(corner), graph_.prev(corner)}) {
-    if (!isKnown(c)) known == 2 ? add(c, 2) : raise(c, 1);
-  }
-}
-
-void SiteOrder::revealPolygon(Index corner, Index known, Index degree) {
-  const Index begin = graph_.faceBegin(corner), end = graph_.faceEnd(corner);
-  if (known + 1 == degree) {
-    for (Index c = begin; c < end; ++c) {
-      if (!isKnown(c)) add(c, 16);
-    }
-  } else if (degree <= kScannedDegree) {
-    for (Index c = begin; c < end; ++c) {
-      const int sides = isKnown(graph_.next(c)) + isKnown(graph_.prev(c));
-      if (sides != 0 && !isKnown(c)) add(c, sides == 2 ? 8 : 4);
-    }
-  } else {
-    for (const Index c : {graph_.next(corner), graph_.prev(corner)}) {
-      if (!isKnown(c)) raise(c, 4);
-    }
-  }
-}
-
-void SiteOrder::add(Index corner, Index amount) {
-  const Index site = graph_.site(corner);
-  setScore(site, score_[site] + amount);
-}
-
-void SiteOrder::raise(Index corner, Index least) {
-  const Index site = graph_.site(corner);
-  setScore(site, std::max(score_[site], least));
-}
-
-void SiteOrder::setScore(Index site, Index score) {
-  const Index before = score_[site];
-  score_[site] = score;
-  const int level = levelOf(score);
-  if (before != 0 && level == levelOf(before)) return;
-  stacks_[level].push_back(site);
-  top_ = std::max(top_, level);
 }
 
 }  // namespace tutte

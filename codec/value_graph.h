@@ -2,7 +2,7 @@
 // Where values sit on a mesh. Corners that share a value form a *site*: a vertex for positions; for an attribute with
 // seams, the corners of a vertex between two seams.
 
-#include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,49 +10,58 @@
 
 namespace tutte {
 
-/// The sites of one attribute over a mesh, as predictors see them. 16 bytes per corner, and 4 for the way back.
+/// The sites of one attribute over a mesh, as predictors see them. 16 bytes per corner: what is asked for together lies
+/// together.
+///
+/// In a face of more than 2047 corners, the first one's predecessor and the last one's successor are these themselves.
 class ValueGraph {
  public:
-  /// `site_of` gives a number below `site_count` for every corner. O(corners).
-  template <class SiteOf>
-  ValueGraph(const Connectivity& mesh, Index site_count, SiteOf site_of) : site_count_(site_count) {
-    addCorners(mesh);
-    for (Index c = 0; c < corners_.size(); ++c) corners_[c].site = site_of(c);
-    if (site_count != mesh.umbrella_count || !mesh.vertices.empty()) dropSeamTwins();
-    addCornersOfSites();
-  }
+  /// `sites` gives a number below `site_count` for every corner. O(corners).
+  ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count);
 
-  Index siteCount() const { return site_count_; }
-  Index cornerCount() const { return static_cast<Index>(corners_.size()); }
+  Index siteCount() const { return static_cast<Index>(first_.size()); }
+  Index cornerCount() const { return corner_count_; }
 
   Index site(Index corner) const { return corners_[corner].site; }
   /// As Connectivity::twins, but kNone where the far side has other sites.
   Index twin(Index corner) const { return corners_[corner].twin; }
-  Index faceBegin(Index corner) const { return corners_[corner].begin; }
-  Index faceEnd(Index corner) const { return corners_[corner].end; }
-  Index degree(Index corner) const { return corners_[corner].end - corners_[corner].begin; }
-  Index next(Index corner) const { return corner + 1 == corners_[corner].end ? corners_[corner].begin : corner + 1; }
-  Index prev(Index corner) const { return corner == corners_[corner].begin ? corners_[corner].end - 1 : corner - 1; }
-
-  /// All corners of a site but those of faces of degree below 3.
-  std::span<const Index> cornersOf(Index site) const {
-    return {around_.data() + first_[site], first_[site + 1] - first_[site]};
+  /// The degree of its face, at most 255.
+  Index degree(Index corner) const { return corners_[corner].shape & kMostDegree; }
+  Index next(Index corner) const {
+    return corner + static_cast<Index>(static_cast<int32_t>(corners_[corner].shape << 12) >> 20);
+  }
+  Index prev(Index corner) const {
+    return corner + static_cast<Index>(static_cast<int32_t>(corners_[corner].shape) >> 20);
   }
 
+  /// Calls visit(corner) for the first 64 corners of a site, ascending; those of faces of degree below 3 do not count.
+  template <class Visit>
+  [[gnu::always_inline]] void forCorners(Index site, Visit visit) const {
+    int rest = kMostCorners;
+    for (Index corner = first_[site]; corner != kNone && rest > 0; corner = corners_[corner].following, --rest) {
+      visit(corner);
+    }
+  }
+
+  static constexpr int kMostCorners = 64;
+
  private:
+  static constexpr uint32_t kMostDegree = 255;
+  static constexpr Index kMostStep = 2047;
+
   struct Corner {
     Index site, twin;
-    Index begin, end;  // of the face
+    uint32_t shape;   // 12 bits the way to the corner before it, 12 bits to the one after it, 8 bits the degree
+    Index following;  // the next corner of the site
   };
 
-  void addCorners(const Connectivity& mesh);
+  void addCorners(const Connectivity& mesh, std::span<const Index> sites);
   void dropSeamTwins();
-  void addCornersOfSites();
+  void linkCorners();
 
-  Index site_count_;
-  std::vector<Corner> corners_;
-  std::vector<Index> first_;  // the corners of site s are around_[first_[s]] ... around_[first_[s + 1] - 1]
-  std::vector<Index> around_;
+  Index corner_count_;
+  std::unique_ptr<Corner[]> corners_;
+  std::vector<Index> first_;  // per site its first corner
 };
 
 /// The site of each wedge, numbered by the smallest wedge.
@@ -68,51 +77,5 @@ WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, I
 
 /// Joins all wedges of a vertex. O(corners).
 WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count);
-
-/// The order in which values are coded: always one of the sites with the most known surroundings, so that most values
-/// are predicted by several parallelograms. A function of the graph alone. O(corners) in all.
-class SiteOrder {
- public:
-  explicit SiteOrder(const ValueGraph& graph);
-
-  /// The next site, which counts as known from now on. To be called once per site.
-  Index next();
-
- private:
-  static constexpr int kLevels = 6;
-
-  bool isKnown(Index corner) const { return score_[graph_.site(corner)] == kKnown; }
-  void reveal(Index corner);
-  void revealPolygon(Index corner, Index known, Index degree);
-  void add(Index corner, Index amount);
-  void raise(Index corner, Index least);
-  void setScore(Index site, Index score);
-  Index pop();
-
-  static constexpr Index kKnown = kNone;
-
-  const ValueGraph& graph_;
-  std::array<std::vector<Index>, kLevels> stacks_;  // by urgency
-  int top_ = -1;                                    // no higher stack has anything
-  Index seed_ = 0;
-  std::vector<Index> score_;  // per site
-  std::vector<Index> known_;  // per face, at its first corner: how many of its corners are known
-};
-
-/// The same order, which may be walked more than once; made as far as it is asked for.
-class SiteSequence {
- public:
-  explicit SiteSequence(const ValueGraph& graph) : order_(graph) { sites_.reserve(graph.siteCount()); }
-
-  /// The i-th site, i below the number of sites; i rises by one from call to call, or goes back.
-  Index operator[](size_t i) {
-    if (i == sites_.size()) sites_.push_back(order_.next());
-    return sites_[i];
-  }
-
- private:
-  SiteOrder order_;
-  std::vector<Index> sites_;
-};
 
 }  // namespace tutte

@@ -15,9 +15,10 @@ namespace tutte::values {
 /// For attributes without relatives.
 template <int C>
 struct NoGuide {
-  NoGuide(const ValueGraph&, const std::vector<Node<C>>&, std::span<const int32_t>, int32_t) {}
-  void refine(Index, Stencil<C>&) {}
-  void learn(Index, const std::array<int32_t, C>&) {}
+  NoGuide(const ValueGraph&, const Nodes<C>&, std::span<const int32_t>, int32_t) {}
+  template <class T>
+  void refine(Index, Stencil<C, T>&) {}
+  void learn(Index, const Vec<C, int32_t>&) {}
 };
 
 /// The positions of the sites, three numbers each, below 2^20.
@@ -38,7 +39,7 @@ class Places {
   std::span<const int32_t> values_;
 };
 
-inline int64_t distance(const Vec<2>& a, const Vec<2>& b) {
+inline int64_t distance(const Vec<2, int32_t>& a, const Vec<2, int32_t>& b) {
   const int64_t x = a[0] - b[0], y = a[1] - b[1];
   return std::min<int64_t>((x < 0 ? -x : x) + (y < 0 ? -y : y), 1 << 20);
 }
@@ -47,28 +48,27 @@ inline int64_t distance(const Vec<2>& a, const Vec<2>& b) {
 /// corners of which have known coordinates, gives the third's, once it is known whether the texture is mirrored.
 class TexcoordGuide {
  public:
-  TexcoordGuide(const ValueGraph& graph, const std::vector<Node<2>>& nodes, std::span<const int32_t> places,
-                int32_t max)
+  TexcoordGuide(const ValueGraph& graph, const Nodes<2>& nodes, std::span<const int32_t> places, int32_t max)
       : graph_(graph), nodes_(nodes), places_(places), states_(graph.siteCount()), limit_(int64_t{max} << kFraction) {}
 
-  void refine(Index site, Stencil<2>& stencil) {
+  void refine(Index site, Stencil<2, int32_t>& stencil) {
     count_ = 0;
     int64_t here_error = 0, stencil_error = 0;
     const auto weigh = [&](Index neighbour) {
       here_error += states_[neighbour].here_error;
       stencil_error += states_[neighbour].stencil_error;
     };
-    for (const Index corner : graph_.cornersOf(site)) {
+    graph_.forCorners(site, [&](Index corner) {
       const Index next = graph_.next(corner), prev = graph_.prev(corner);
       const Index a = graph_.site(next), b = graph_.site(prev);
-      if (nodes_[a].known) weigh(a);
-      if (nodes_[b].known && graph_.twin(prev) == kNone) weigh(b);
-      if (nodes_[a].known && nodes_[b].known) develop(site, a, b);
-      if (graph_.degree(corner) == 3) continue;
+      if (nodes_.known(a)) weigh(a);
+      if (nodes_.known(b) && graph_.twin(prev) == kNone) weigh(b);
+      if (nodes_.known(a) && nodes_.known(b)) develop(site, a, b);
+      if (graph_.degree(corner) == 3) return;
       const Index c = graph_.site(graph_.next(next)), d = graph_.site(graph_.prev(prev));
-      if (nodes_[a].known && nodes_[c].known) develop(site, a, c);
-      if (nodes_[d].known && nodes_[b].known) develop(site, d, b);
-    }
+      if (nodes_.known(a) && nodes_.known(c)) develop(site, a, c);
+      if (nodes_.known(d) && nodes_.known(b)) develop(site, d, b);
+    });
     stencil_base_ = here_base_ = stencil.base;
     if (count_ == 0) return;
     average();
@@ -80,7 +80,7 @@ class TexcoordGuide {
   }
 
   void learn(Index site, const std::array<int32_t, 2>& value) {
-    const Vec<2> truth = {int64_t{value[0]} << kFraction, int64_t{value[1]} << kFraction};
+    const Vec<2, int32_t> truth = {value[0] << kFraction, value[1] << kFraction};
     State& state = states_[site];
     state.here_error = static_cast<uint32_t>(distance(truth, here_base_));
     state.stencil_error = static_cast<uint32_t>(distance(truth, stencil_base_));
@@ -100,7 +100,7 @@ class TexcoordGuide {
 
   /// The prediction from the edge p -> q, which runs round the face that the site belongs to.
   void develop(Index site, Index p, Index q) {
-    if (count_ == Stencil<2>::kMostMembers) return;
+    if (count_ == Stencil<2, int32_t>::kMostMembers) return;
     Vector3 edge = places_.between(p, q), leg = places_.between(p, site);
     const int64_t largest = std::max(largestMagnitude(edge), largestMagnitude(leg));
     const int shift = static_cast<int>(std::bit_width(static_cast<uint64_t>(largest))) - 14;
@@ -111,10 +111,13 @@ class TexcoordGuide {
     const std::array<int32_t, 2>&from = nodes_[p].value, &to = nodes_[q].value;
     const int64_t dx = int64_t{to[0]} - from[0], dy = int64_t{to[1]} - from[1];
     const int64_t height = turnAt(p, q) < 0 ? -across : across;
-    Vec<2>& member = members_[count_];
-    member[0] = (int64_t{from[0]} << kFraction) + (along * dx - height * dy) * (1 << kFraction) / square;
-    member[1] = (int64_t{from[1]} << kFraction) + (along * dy + height * dx) * (1 << kFraction) / square;
-    for (int64_t& x : member) x = std::clamp(x, -limit_, 2 * limit_);
+    Vec<2, int32_t>& member = members_[count_];
+    const auto place = [&](int32_t start, int64_t step) {
+      const int64_t x = (int64_t{start} << kFraction) + step * (1 << kFraction) / square;
+      return static_cast<int32_t>(std::clamp(x, -limit_, 2 * limit_));
+    };
+    member[0] = place(from[0], along * dx - height * dy);
+    member[1] = place(from[1], along * dy + height * dx);
     if (count_++ == 0) {
       edge_ = {p, q};
       edge_step_ = {dx, dy};
@@ -130,23 +133,23 @@ class TexcoordGuide {
     for (int i = 0; i < 2; ++i) {
       int64_t sum = 0;
       for (int m = 0; m < count_; ++m) sum += members_[m][i];
-      here_base_[i] = mean(sum, static_cast<uint32_t>(count_));
+      here_base_[i] = static_cast<int32_t>(mean(sum, static_cast<uint32_t>(count_)));
     }
   }
 
-  void adopt(Stencil<2>& stencil, bool weak) {
+  void adopt(Stencil<2, int32_t>& stencil, bool weak) {
     stencil.adopt(Source::kAcrossTriangle, here_base_, std::span(members_.data(), static_cast<size_t>(count_)));
     if (weak) return;
     stencil.lean = stencil_base_;
     if (count_ > 1) return;
     for (int i = 0; i < 2; ++i) {
-      const int64_t off = stencil_base_[i] - here_base_[i];
+      const int32_t off = stencil_base_[i] - here_base_[i];
       stencil.spread[i] = off < 0 ? -off : off;
     }
   }
 
   const ValueGraph& graph_;
-  const std::vector<Node<2>>& nodes_;
+  const Nodes<2>& nodes_;
   const Places places_;
   std::vector<State> states_;
   const int64_t limit_;
@@ -154,8 +157,8 @@ class TexcoordGuide {
 
   // Of the current site.
   int count_ = 0;
-  std::array<Vec<2>, Stencil<2>::kMostMembers> members_;
-  Vec<2> here_base_{}, stencil_base_{};
+  std::array<Vec<2, int32_t>, Stencil<2, int32_t>::kMostMembers> members_;
+  Vec<2, int32_t> here_base_{}, stencil_base_{};
   std::array<Index, 2> edge_{};
   std::array<int64_t, 2> edge_step_{};
 };

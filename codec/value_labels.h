@@ -9,6 +9,7 @@
 
 #include "codec/value_graph.h"
 #include "codec/value_model.h"
+#include "codec/value_order.h"
 
 namespace tutte::values {
 
@@ -22,10 +23,14 @@ class LabelCoder {
         graph_(graph),
         bits_(static_cast<int>(std::bit_width(count - 1))),
         count_(count),
+        order_(graph.siteCount()),
         labels_(graph.siteCount(), kNone),
         slots_(size_t{kInputs} << kTableBits) {
     mixer_.fill(Mixer<kInputs>());
   }
+
+  /// The site whose turn it is.
+  Index next() { return order_.next(); }
 
   uint32_t code(Index site, uint32_t label) {
     const std::array<uint32_t, kInputs> contexts = contextsOf(site);
@@ -39,6 +44,10 @@ class LabelCoder {
     }
     label = node - (1u << bits_);
     labels_[site] = last_ = label;
+    urgencies_.clear();
+    graph_.forCorners(site, [&](Index corner) { addUrgencies(graph_, corner, order_, urgencies_); });
+    order_.urge(urgencies_.entries());
+    order_.learn(site, false);
     return label;
   }
 
@@ -51,7 +60,7 @@ class LabelCoder {
     std::array<uint32_t, 4> around;
     around.fill(kNone);
     uint32_t found = 0, agreeing = 0;
-    for (const Index corner : graph_.cornersOf(site)) {
+    graph_.forCorners(site, [&](Index corner) {
       for (const Index other : {graph_.next(corner), graph_.prev(corner)}) {
         const uint32_t label = labels_[graph_.site(other)];
         if (label == kNone) continue;
@@ -60,7 +69,7 @@ class LabelCoder {
       }
       const uint32_t opposite = labels_[graph_.site(graph_.next(graph_.next(corner)))];
       if (opposite != kNone && around[2] == kNone) around[2] = opposite;
-    }
+    });
     agreeing = std::min(agreeing, 3u);
     return {0u, around[0] * 4 + agreeing, around[0] * 0x10001u + around[1] * 3, around[2] * 0x8003u + around[0], last_};
   }
@@ -78,6 +87,8 @@ class LabelCoder {
   const ValueGraph& graph_;
   const int bits_;
   const uint32_t count_;
+  SiteOrder order_;
+  Urgencies urgencies_;
   uint32_t last_ = 0;
   std::vector<uint32_t> labels_;  // per site; kNone: unknown
   std::vector<Chance> slots_;

@@ -21,20 +21,22 @@ class Chance {
 
   void update(bool bit) {
     const uint32_t seen = state_ & 1023;
-    const int64_t target = bit ? 0x3FFFFF : 0;
+    const int64_t target = bit ? 0x3FFFFF - kLeast : kLeast;
     const int64_t probability = state_ >> 10;
     const int64_t moved = probability + ((target - probability) * kAdaptation[seen] >> 16);
-    state_ = static_cast<uint32_t>(moved) << 10 | (seen < 255 ? seen + 1 : seen);
+    state_ = static_cast<uint32_t>(moved) << 10 | (seen + (seen < 255));
   }
 
   template <class Port>
   bool code(Port& port, bool value) {
-    const bool bit = port.code(std::clamp(one16(), 32u, 65504u), value);
+    const bool bit = port.code(one16(), value);
     update(bit);
     return bit;
   }
 
  private:
+  static constexpr int64_t kLeast = 2048;  // so that one16() stays between 31 and 65504
+
   uint32_t state_;
 };
 
@@ -80,6 +82,7 @@ inline constexpr int kMostInputs = 5;
 struct ResidualContext {
   std::array<uint32_t, kMostInputs> line;
   int component = 0;  ///< 0 to 2
+  int level = 0;      ///< of the expected size
   int expected = 0;   ///< the bit length that is expected: 0 to kLongest
   int sign = 0;       ///< below kSigns
 };
@@ -88,12 +91,12 @@ inline constexpr int kLongest = 18;  // of expected lengths
 inline constexpr int kSigns = 8 * 3;
 
 /// Codes residuals by their bit length (a walk up or down from the expected one, by mixed contexts), sign and digits.
-template <int kInputs>
-class ResidualCoder {
+class MixingCoder {
  public:
-  /// `lines`: how many contexts each input has.
-  explicit ResidualCoder(const std::array<uint32_t, kInputs>& lines) {
-    for (int i = 0; i < kInputs; ++i) tables_[i].assign(size_t{lines[i]} * kBins, Chance());
+  static constexpr int kInputs = 5;
+
+  MixingCoder() {
+    for (int i = 0; i < kInputs; ++i) tables_[i].assign(size_t{kLines[i]} * kBins, Chance());
     mixers_.fill(Mixer<kInputs>());
     signs_.fill(Chance());
     digits_.fill(Chance());
@@ -112,6 +115,9 @@ class ResidualCoder {
   }
 
  private:
+  // How many contexts each input has.
+  static constexpr std::array<uint32_t, kInputs> kLines = {64 * 3 * 4, 15 * 4 * 19, 12 * 16 * 19, 3 * 4 * 19 * 32,
+                                                           32 * 19 * 3};
   static constexpr int kBins = 19;  // "longer than expected?", ten steps up, eight steps down
   static constexpr int kUp = 1, kDown = 11;
   static constexpr int kLongestResidual = 30;

@@ -1,7 +1,6 @@
 #include "codec/value_ranks.h"
 
 #include <algorithm>
-#include <set>
 
 namespace tutte {
 
@@ -11,15 +10,18 @@ int32_t ValueRanks::largest() const {
   return static_cast<int32_t>(most - 1);
 }
 
-std::optional<ValueRanks> findRanks(std::span<const int32_t> values, int components, size_t most) {
+std::optional<ValueRanks> findRanks(std::span<const int32_t> values, int components, int32_t max, size_t most) {
   ValueRanks ranks;
   for (int c = 0; c < components; ++c) {
-    std::set<int32_t> seen;
+    std::vector<bool> seen(static_cast<size_t>(max) + 1);
+    std::vector<int32_t>& list = ranks.values.emplace_back();
     for (size_t i = c; i < values.size(); i += components) {
-      seen.insert(values[i]);
-      if (seen.size() > most) return std::nullopt;
+      if (seen[values[i]]) continue;
+      if (list.size() == most) return std::nullopt;
+      seen[values[i]] = true;
+      list.push_back(values[i]);
     }
-    ranks.values.emplace_back(seen.begin(), seen.end());
+    std::ranges::sort(list);
   }
   return ranks;
 }

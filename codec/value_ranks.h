@@ -20,9 +20,9 @@ struct ValueRanks {
   int32_t largest() const;
 };
 
-/// The different values, of which there are `components` per site; nothing when there are more than `most` in a
-/// component. O(values * log(most)).
-std::optional<ValueRanks> findRanks(std::span<const int32_t> values, int components, size_t most);
+/// The different values, of which there are `components` per site, each in [0, max]; nothing when there are more than
+/// `most` in a component. O(values + max), with max / 8 bytes.
+std::optional<ValueRanks> findRanks(std::span<const int32_t> values, int components, int32_t max, size_t most);
 
 /// The ranks instead of the values.
 std::vector<int32_t> toRanks(const ValueRanks& ranks, std::span<const int32_t> values);

@@ -4,51 +4,82 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "codec/value_graph.h"
+#include "codec/value_order.h"
 #include "codec/value_tables.h"
 
 namespace tutte::values {
 
+/// Vectors of `C` components, three of them padded to four. Numbers of type `T`: 32 bits hold everything about values
+/// below 2^20 with their fractions.
+template <int C, class T>
+using Vec = std::array<T, C == 3 ? 4 : C>;
+
 /// A site while values are coded.
 template <int C>
-struct Node {
-  std::array<int32_t, C> value{};
-  std::array<uint32_t, C> error{};  ///< how far the prediction was off, in 1/16
-  bool known = false;
-  bool picked = false;  ///< a single parallelogram was picked for it
+struct alignas(C >= 3 ? 16 : 8) Node {
+  Vec<C, int32_t> value{};
+  Vec<C, int32_t> error{};  ///< how far the prediction was off, in 1/16; at most kLargestError
 };
 
+inline constexpr int32_t kLargestError = 1 << 20;
+
+/// All sites and their order. Nodes of unknown sites hold zeros.
 template <int C>
-using Vec = std::array<int64_t, C>;
+class Nodes {
+ public:
+  explicit Nodes(Index sites) : order(sites), nodes_(sites) {}
+
+  const Node<C>& operator[](Index site) const { return nodes_[site]; }
+  bool known(Index site) const { return order.known(site); }
+  /// A single parallelogram was its prediction.
+  bool picked(Index site) const { return order.marked(site); }
+
+  Node<C>& learn(Index site, bool picked) {
+    order.learn(site, picked);
+    return nodes_[site];
+  }
+
+  SiteOrder order;
+
+ private:
+  std::vector<Node<C>> nodes_;
+};
 
 /// Which kind of prediction was possible, best first.
 enum class Source : uint8_t { kWithin, kAcrossTriangle, kAcrossFace, kStraight, kNeighbours, kLast };
 
 /// The surroundings of one site. Predictions and spreads are in 1/16.
-template <int C>
+template <int C, class T>
 class Stencil {
  public:
-  Stencil(const ValueGraph& graph, const std::vector<Node<C>>& nodes) : graph_(graph), nodes_(nodes) {}
+  using Values = Vec<C, T>;
+
+  Stencil(const ValueGraph& graph, Nodes<C>& nodes) : graph_(graph), nodes_(nodes) {}
 
   /// Gathers everything for a site; `last` is used where nothing is known around it.
-  void gather(Index site, const Vec<C>& last, bool want_normal) {
-    member_count = neighbours = picked_neighbours = 0;
-    source = Source::kLast;
-    error_sum.fill(0);
-    neighbour_sum_.fill(0);
+  /// Tells the order, too.
+  void gather(Index site, const Vec<C, int32_t>& last, bool want_normal) {
     normal.fill(0);
+    member_count = 0;
     want_normal_ = want_normal;
-    for (const Index corner : graph_.cornersOf(site)) visit(corner);
+    Lists lists;
+    graph_.forCorners(site, [&](Index corner) { visit(corner, lists); });
+    nodes_.order.urge(lists.urgencies.entries());
+    sumNeighbours(std::span(lists.around.data(), static_cast<size_t>(lists.neighbours)));
+    makeMembers(std::span(lists.within.data(), static_cast<size_t>(lists.within_count)),
+                std::span(lists.across.data(), static_cast<size_t>(lists.across_count)));
     settle(site, last);
   }
 
   static constexpr int kMostMembers = 8;
 
   /// Replaces what was gathered by better predictions: their average and all of them.
-  void adopt(Source from, const Vec<C>& average, std::span<const Vec<C>> predictions) {
+  void adopt(Source from, const Values& average, std::span<const Values> predictions) {
     source = from;
     base = lean = average;
     member_count = static_cast<int>(predictions.size());
@@ -58,103 +89,140 @@ class Stencil {
 
   Source source = Source::kLast;
   int member_count = 0;  ///< parallelograms, if `source` is one of the first two
-  std::array<Vec<C>, kMostMembers> members;
-  Vec<C> base;              ///< the prediction
-  Vec<C> spread;            ///< how much the predictions disagree
-  Vec<C> lean;              ///< another prediction: the value is likelier on its side of the base
-  uint32_t neighbours = 0;  ///< known ones
-  uint32_t picked_neighbours = 0;
-  Vec<C> error_sum;               ///< of the neighbours' errors
+  std::array<Values, kMostMembers> members;
+  Values base;             ///< the prediction
+  Values spread;           ///< how much the predictions disagree
+  Values lean;             ///< another prediction: the value is likelier on its side of the base
+  int32_t neighbours = 0;  ///< known ones
+  int32_t picked_neighbours = 0;
+  Values error_sum;               ///< of the neighbours' errors
   std::array<int64_t, 3> normal;  ///< of the surroundings, not of unit length; 0: unknown
 
  private:
-  const Node<C>& node(Index corner) const { return nodes_[graph_.site(corner)]; }
+  static constexpr int kWidth = static_cast<int>(std::tuple_size_v<Values>);
+  static constexpr T kOne = 1 << kFraction;
 
-  void visit(Index corner) {
-    const Index next = graph_.next(corner), prev = graph_.prev(corner);
-    const Node<C>&a = node(next), &b = node(prev);
-    if (a.known) addNeighbour(a);
-    if (b.known && graph_.twin(prev) == kNone) addNeighbour(b);
-    const Index degree = graph_.degree(corner);
-    if (degree > 4) return visitPolygon(next, prev, a, b, degree);
-    if (!a.known || !b.known) return;
-    if (degree == 3) return visitTriangle(next, a, b);
-    const Node<C>& c = node(graph_.next(next));
-    if (!c.known) return;
-    addNormal(c, a, b);
-    if (Vec<C>* member = newMember(Source::kWithin)) {
-      for (int i = 0; i < C; ++i) (*member)[i] = (int64_t{a.value[i]} + b.value[i] - c.value[i]) * kOne;
+  const Vec<C, int32_t>& value(Index site) const { return nodes_[site].value; }
+
+  // What is known around a site. Whether something is known is hard to foresee, so nothing is decided while the lists
+  // are made: they grow by 0 or 1.
+  struct Lists {
+    std::array<Index, 2 * ValueGraph::kMostCorners + 1> around;
+    std::array<Index, ValueGraph::kMostCorners + 1> within,
+        across;  // a quad's corner; the twin of a triangle's far edge
+    int neighbours = 0, within_count = 0, across_count = 0;
+    Urgencies urgencies;
+  };
+
+  [[gnu::always_inline]] void visit(Index corner, Lists& lists) {
+    const Index next = graph_.next(corner), prev = graph_.prev(corner), degree = graph_.degree(corner);
+    const Index a = graph_.site(next), b = graph_.site(prev);
+    const bool know_a = nodes_.known(a), know_b = nodes_.known(b);
+    lists.around[lists.neighbours] = a;
+    lists.neighbours += know_a;
+    lists.around[lists.neighbours] = b;
+    lists.neighbours += know_b & (graph_.twin(prev) == kNone);
+    if (degree == 3) {
+      const Index twin = graph_.twin(next);
+      lists.across[lists.across_count] = twin;
+      lists.across_count += know_a & know_b & knowsBeyond(twin);
+      lists.urgencies.addTriangle(a, know_a, b, know_b);
+    } else if (degree == 4) {
+      const Index c = graph_.site(graph_.next(next));
+      const bool know_c = nodes_.known(c);
+      lists.within[lists.within_count] = corner;
+      lists.within_count += know_a & know_b & know_c;
+      lists.urgencies.addQuad(a, know_a, b, know_b, c, know_c);
+    } else {
+      visitPolygon(next, prev, degree, lists.urgencies);
     }
   }
 
-  void visitTriangle(Index next, const Node<C>& a, const Node<C>& b) {
-    const Index twin = graph_.twin(next);
-    if (twin == kNone) return;
-    const Index beyond_b = graph_.prev(twin);
-    const Node<C>& x = node(beyond_b);
-    if (!x.known) return;
-    const bool triangle = graph_.degree(twin) == 3;
-    const Node<C>& y = triangle ? x : node(graph_.next(graph_.next(twin)));
-    if (!y.known) return;
-    addNormal(b, a, x);
-    if (Vec<C>* member = newMember(Source::kAcrossTriangle)) {
-      for (int i = 0; i < C; ++i) {
-        (*member)[i] = (2 * (int64_t{a.value[i]} + b.value[i]) - x.value[i] - y.value[i]) * (kOne / 2);
+  // Are the corners of the face at both sides of an edge known? In a triangle, these are one.
+  [[gnu::always_inline]] bool knowsBeyond(Index twin) const {
+    const Index edge = twin == kNone ? 0 : twin;
+    const bool known = nodes_.known(graph_.site(graph_.prev(edge))) & (twin != kNone);
+    return graph_.degree(edge) == 3 ? known : known && nodes_.known(graph_.site(graph_.next(graph_.next(edge))));
+  }
+
+  void sumNeighbours(std::span<const Index> around) {
+    Values errors{}, values{};
+    picked_neighbours = 0;
+    for (const Index site : around) {
+      const Node<C>& node = nodes_[site];
+      picked_neighbours += nodes_.picked(site);
+      for (int i = 0; i < kWidth; ++i) {
+        errors[i] += node.error[i];
+        values[i] += node.value[i];
       }
+    }
+    neighbours = static_cast<int32_t>(around.size());
+    error_sum = errors;
+    neighbour_sum_ = values;
+  }
+
+  // Parallelograms within polygons are better than those across edges.
+  void makeMembers(std::span<const Index> within, std::span<const Index> across) {
+    const bool inside = within.size() > 0 || member_count > 0;
+    source = inside ? Source::kWithin : across.size() > 0 ? Source::kAcrossTriangle : Source::kLast;
+    for (const Index corner : within) {
+      const Index next = graph_.next(corner), c = graph_.site(graph_.next(next));
+      addParallelogram(graph_.site(next), graph_.site(graph_.prev(corner)), c, c, true);
+    }
+    for (const Index twin : across) {
+      const Index next = graph_.next(twin), x = graph_.site(graph_.prev(twin));
+      const Index y = graph_.degree(twin) == 3 ? x : graph_.site(graph_.next(next));
+      addParallelogram(graph_.site(next), graph_.site(twin), x, y, !inside);
+    }
+  }
+
+  // a + b - (x + y) / 2
+  void addParallelogram(Index a, Index b, Index x, Index y, bool as_member) {
+    addNormal(b, a, x);
+    if (!as_member || member_count == kMostMembers) return;
+    Values& member = members[member_count++];
+    for (int i = 0; i < kWidth; ++i) {
+      member[i] = (2 * (T{value(a)[i]} + value(b)[i]) - value(x)[i] - value(y)[i]) * (kOne / 2);
     }
   }
 
   // A regular polygon's diagonal over three sides is parallel to the middle one.
-  void visitPolygon(Index next, Index prev, const Node<C>& a, const Node<C>& b, Index degree) {
+  void visitPolygon(Index next, Index prev, Index degree, Urgencies& urgencies) {
     const Index next2 = graph_.next(next), prev2 = graph_.prev(prev);
-    const Node<C>&c = node(next2), &d = node(prev2);
+    const Index a = graph_.site(next), b = graph_.site(prev), c = graph_.site(next2), d = graph_.site(prev2);
+    const bool know_a = nodes_.known(a), know_b = nodes_.known(b), know_c = nodes_.known(c), know_d = nodes_.known(d);
+    urgencies.addPolygon(a, know_a, b, know_b, know_c, know_d);
     const PolygonRatio ratio = kPolygonRatio[degree < kLargestPolygon ? degree : kLargestPolygon];
-    if (a.known && b.known) {
-      if (d.known) addScaled(b, a, d, ratio.inverse);
-      if (c.known) addScaled(a, b, c, ratio.inverse);
-      if (c.known) addNormal(c, a, b);
-    } else if (b.known && d.known) {
-      const Node<C>& e = node(graph_.prev(prev2));
-      if (e.known) addScaled(e, b, d, ratio.k);
-    } else if (a.known && c.known) {
-      const Node<C>& e = node(graph_.next(next2));
-      if (e.known) addScaled(e, a, c, ratio.k);
+    if (know_a && know_b) {
+      if (know_d) addScaled(b, a, d, ratio.inverse);
+      if (know_c) addScaled(a, b, c, ratio.inverse);
+      if (know_c) addNormal(b, a, c);
+    } else if (know_b && know_d) {
+      const Index e = graph_.site(graph_.prev(prev2));
+      if (nodes_.known(e)) addScaled(e, b, d, ratio.k);
+    } else if (know_a && know_c) {
+      const Index e = graph_.site(graph_.next(next2));
+      if (nodes_.known(e)) addScaled(e, a, c, ratio.k);
     }
   }
 
   // at + (to - from) * factor
-  void addScaled(const Node<C>& at, const Node<C>& to, const Node<C>& from, int32_t factor) {
-    Vec<C>* member = newMember(Source::kWithin);
-    if (!member) return;
-    for (int i = 0; i < C; ++i) {
-      (*member)[i] = at.value[i] * kOne + ((int64_t{to.value[i]} - from.value[i]) * factor >> (12 - kFraction));
+  void addScaled(Index at, Index to, Index from, int32_t factor) {
+    if (member_count == kMostMembers) return;
+    Values& member = members[member_count++];
+    for (int i = 0; i < kWidth; ++i) {
+      const int64_t scaled = (int64_t{value(to)[i]} - value(from)[i]) * factor >> (12 - kFraction);
+      member[i] = value(at)[i] * kOne + static_cast<T>(scaled);
     }
   }
 
-  Vec<C>* newMember(Source from) {
-    if (from < source) {
-      source = from;
-      member_count = 0;
-    }
-    return from == source && member_count < kMostMembers ? &members[member_count++] : nullptr;
-  }
-
-  void addNeighbour(const Node<C>& neighbour) {
-    ++neighbours;
-    picked_neighbours += neighbour.picked;
-    for (int i = 0; i < C; ++i) {
-      error_sum[i] += neighbour.error[i];
-      neighbour_sum_[i] += neighbour.value[i];
-    }
-  }
-
-  void addNormal(const Node<C>& origin, const Node<C>& first, const Node<C>& second) {
+  void addNormal(Index origin, Index first, Index second) {
     if constexpr (C == 3) {
       if (!want_normal_) return;
       std::array<int64_t, 3> u, w;
       for (int i = 0; i < 3; ++i) {
-        u[i] = int64_t{first.value[i]} - origin.value[i];
-        w[i] = int64_t{second.value[i]} - origin.value[i];
+        u[i] = int64_t{value(first)[i]} - value(origin)[i];
+        w[i] = int64_t{value(second)[i]} - value(origin)[i];
       }
       for (int i = 0; i < 3; ++i) {
         const int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
@@ -165,112 +233,115 @@ class Stencil {
     }
   }
 
+  static Values average(const Values& sum, int32_t count) {
+    Values result;
+    for (int i = 0; i < kWidth; ++i) result[i] = static_cast<T>(mean(int64_t{sum[i]}, static_cast<uint32_t>(count)));
+    return result;
+  }
+
   // Fills in base and spread from the best source.
-  void settle(Index site, const Vec<C>& last) {
-    if (member_count > 0) {
-      for (int i = 0; i < C; ++i) {
-        int64_t sum = 0;
-        for (int m = 0; m < member_count; ++m) sum += members[m][i];
-        base[i] = mean(sum, static_cast<uint32_t>(member_count));
-      }
-      lean = base;
-      if (member_count > 1) return spreadOfMembers();
+  void settle(Index site, const Vec<C, int32_t>& last) {
+    if (member_count == 1) base = members[0];
+    if (member_count == 2) {
+      for (int i = 0; i < kWidth; ++i) base[i] = (members[0][i] + members[1][i] + 1) >> 1;
     }
-    settleFromAfar(site, last);
+    if (member_count > 2) {
+      Values sum = members[0];
+      for (int m = 1; m < member_count; ++m) {
+        for (int i = 0; i < kWidth; ++i) sum[i] += members[m][i];
+      }
+      base = average(sum, member_count);
+    }
+    if (member_count > 0) lean = base;
+    member_count > 1 ? spreadOfMembers() : settleFromAfar(site, last);
   }
 
   void spreadOfMembers() {
-    for (int i = 0; i < C; ++i) {
-      int64_t widest = 0;
-      for (int m = 1; m < member_count; ++m) {
-        const int64_t off = members[m][i] - members[0][i];
-        widest = std::max(widest, off < 0 ? -off : off);
+    spread.fill(0);
+    for (int m = 1; m < member_count; ++m) {
+      for (int i = 0; i < kWidth; ++i) {
+        const T off = members[m][i] - members[0][i];
+        spread[i] = std::max(spread[i], off < 0 ? -off : off);
       }
-      spread[i] = widest;
     }
   }
 
+  // Predictions of one weaker kind.
+  struct Far {
+    Values sum{};
+    int32_t count = 0;
+  };
+
   // Weaker predictions: the best is the base where there is no parallelogram, the next one measures its reliability.
-  void settleFromAfar(Index site, const Vec<C>& last) {
+  void settleFromAfar(Index site, const Vec<C, int32_t>& last) {
     Far across, straight;
-    for (const Index corner : graph_.cornersOf(site)) {
-      if (graph_.degree(corner) < 4) continue;
-      const Index next = graph_.next(corner), prev = graph_.prev(corner);
-      const Index next2 = graph_.next(next), prev2 = graph_.prev(prev);
-      const Index beyond_next = graph_.twin(next), beyond_prev = graph_.twin(prev2);
-      if (node(next).known && beyond_next != kNone) {
-        lookAcross(node(next), node(next2), graph_.next(graph_.next(beyond_next)), graph_.prev(beyond_next), across,
-                   straight, graph_.degree(beyond_next));
-      }
-      if (node(prev).known && beyond_prev != kNone) {
-        lookAcross(node(prev), node(prev2), graph_.prev(beyond_prev), graph_.next(graph_.next(beyond_prev)), across,
-                   straight, graph_.degree(beyond_prev));
-      }
-    }
+    graph_.forCorners(site, [&](Index corner) {
+      if (graph_.degree(corner) > 3) lookAcross(corner, across, straight);
+    });
     spread.fill(0);
     bool have_base = member_count > 0, have_spread = false;
-    const auto offer = [&](Source from, const Vec<C>& prediction) {
+    const auto offer = [&](Source from, const Values& prediction) {
       if (!have_base) {
         base = lean = prediction;
         source = from;
         have_base = true;
       } else if (!have_spread) {
-        for (int i = 0; i < C; ++i)
-          spread[i] = prediction[i] < base[i] ? base[i] - prediction[i] : prediction[i] - base[i];
+        for (int i = 0; i < kWidth; ++i) {
+          const T off = prediction[i] - base[i];
+          spread[i] = off < 0 ? -off : off;
+        }
         lean = prediction;
         have_spread = true;
       }
     };
-    if (across.count > 0) offer(Source::kAcrossFace, across.average());
-    if (straight.count > 0) offer(Source::kStraight, straight.average());
-    if (neighbours > 0) {
-      Vec<C> average;
-      for (int i = 0; i < C; ++i) average[i] = mean(neighbour_sum_[i] * kOne, neighbours);
-      offer(Source::kNeighbours, average);
+    if (across.count > 0) offer(Source::kAcrossFace, average(across.sum, across.count));
+    if (straight.count > 0) offer(Source::kStraight, average(straight.sum, straight.count));
+    if (neighbours > 0 && !have_spread) {
+      Values mean_value;
+      for (int i = 0; i < kWidth; ++i) {
+        mean_value[i] = static_cast<T>(mean(int64_t{neighbour_sum_[i]} * kOne, static_cast<uint32_t>(neighbours)));
+      }
+      offer(Source::kNeighbours, mean_value);
     }
     if (!have_base) {
       source = Source::kLast;
-      for (int i = 0; i < C; ++i) base[i] = lean[i] = last[i] * kOne;
+      for (int i = 0; i < kWidth; ++i) base[i] = lean[i] = last[i] * kOne;
     }
   }
 
-  struct Far {
-    Vec<C> sum{};
-    uint32_t count = 0;
-    Vec<C> average() const {
-      Vec<C> result;
-      for (int i = 0; i < C; ++i) result[i] = mean(sum[i], count);
-      return result;
+  void lookAcross(Index corner, Far& across, Far& straight) {
+    const Index next = graph_.next(corner), prev = graph_.prev(corner), prev2 = graph_.prev(prev);
+    const Index beyond_next = graph_.twin(next), beyond_prev = graph_.twin(prev2);
+    const Index a = graph_.site(next), b = graph_.site(prev);
+    if (nodes_.known(a) && beyond_next != kNone) {
+      lookAcross(a, graph_.site(graph_.next(next)), graph_.next(graph_.next(beyond_next)), graph_.prev(beyond_next),
+                 across, straight, graph_.degree(beyond_next));
     }
-  };
+    if (nodes_.known(b) && beyond_prev != kNone) {
+      lookAcross(b, graph_.site(prev2), graph_.prev(beyond_prev), graph_.next(graph_.next(beyond_prev)), across,
+                 straight, graph_.degree(beyond_prev));
+    }
+  }
 
   // The face beyond the edge from a (the neighbour) to c: y lies beyond a, x beyond c.
-  void lookAcross(const Node<C>& a, const Node<C>& c, Index beyond_a, Index beyond_c, Far& across, Far& straight,
-                  Index degree) {
-    const Node<C>&x = node(beyond_c), &y = node(beyond_a);
-    if (degree == 3) {
-      if (!x.known || !c.known) return;
-      for (int i = 0; i < C; ++i) {
-        across.sum[i] += (3 * int64_t{a.value[i]} + c.value[i] - 2 * int64_t{x.value[i]}) * (kOne / 2);
+  void lookAcross(Index a, Index c, Index beyond_a, Index beyond_c, Far& across, Far& straight, Index degree) {
+    const Index x = graph_.site(beyond_c), y = graph_.site(beyond_a);
+    if (nodes_.known(x) && nodes_.known(c) && across.count < kMostMembers) {
+      for (int i = 0; i < kWidth; ++i) {
+        across.sum[i] += degree == 3 ? (3 * T{value(a)[i]} + value(c)[i] - 2 * T{value(x)[i]}) * (kOne / 2)
+                                     : (T{value(a)[i]} + value(c)[i] - value(x)[i]) * kOne;
       }
       ++across.count;
-      return;
     }
-    if (x.known && c.known) {
-      for (int i = 0; i < C; ++i) across.sum[i] += (int64_t{a.value[i]} + c.value[i] - x.value[i]) * kOne;
-      ++across.count;
-    }
-    if (y.known) {
-      for (int i = 0; i < C; ++i) straight.sum[i] += (2 * int64_t{a.value[i]} - y.value[i]) * kOne;
+    if (degree > 3 && nodes_.known(y) && straight.count < kMostMembers) {
+      for (int i = 0; i < kWidth; ++i) straight.sum[i] += (2 * T{value(a)[i]} - value(y)[i]) * kOne;
       ++straight.count;
     }
   }
 
-  static constexpr int64_t kOne = 1 << kFraction;
-
   const ValueGraph& graph_;
-  const std::vector<Node<C>>& nodes_;
-  Vec<C> neighbour_sum_;
+  Nodes<C>& nodes_;
+  Values neighbour_sum_;
   bool want_normal_ = false;
 };
 

@@ -52,19 +52,18 @@ inline constexpr std::array<uint16_t, 256> kConfidence = [] {
 }();
 
 /// kReciprocal[n] = 65536 / n, rounded.
-inline constexpr std::array<uint32_t, 65> kReciprocal = [] {
-  std::array<uint32_t, 65> table{};
-  for (uint32_t n = 1; n <= 64; ++n) table[n] = (65536 + n / 2) / n;
+inline constexpr std::array<uint32_t, 256> kReciprocal = [] {
+  std::array<uint32_t, 256> table{};
+  for (uint32_t n = 1; n < 256; ++n) table[n] = (65536 + n / 2) / n;
   return table;
 }();
 
-/// sum / count for count >= 1, rounded to nearest up to 64.
+/// sum / count for count 1 to 255, rounded.
 constexpr int64_t mean(int64_t sum, uint32_t count) {
   if (count == 1) return sum;
   if (count == 2) return (sum + 1) >> 1;
   if (count == 4) return (sum + 2) >> 2;
-  if (count <= 64) return (sum * kReciprocal[count] + 32768) >> 16;
-  return sum / count;
+  return (sum * kReciprocal[count] + 32768) >> 16;
 }
 
 /// Regular polygons: the diagonal over three sides is k times the side, k = 1 + 2 cos(2 pi / n), in 1/4096; and 1 / k.
@@ -93,11 +92,10 @@ inline constexpr std::array<PolygonRatio, kLargestPolygon + 1> kPolygonRatio = {
     {11664, 1438},
 }};
 
-/// Four times the binary logarithm, roughly: 0, 1, 2, 3, 4 for itself, then four steps per doubling.
+/// Four times the binary logarithm of x / 4 + 1, roughly, for x below 2^31: four steps per doubling.
 constexpr int32_t quarterLog(uint32_t x) {
-  if (x < 4) return static_cast<int32_t>(x);
-  const int width = std::bit_width(x);
-  return static_cast<int32_t>(4 * (width - 2) + static_cast<int>(x >> (width - 3) & 3));
+  const int high = 31 ^ __builtin_clz(x + 4);
+  return static_cast<int32_t>(4 * (high - 2) + static_cast<int>((x + 4) >> (high - 2) & 3));
 }
 
 constexpr int32_t bitLength(uint32_t x) { return static_cast<int32_t>(std::bit_width(x)); }

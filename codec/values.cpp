@@ -27,47 +27,52 @@ struct Run {
   const ValueSites& sites;
   const ValueFormat& format;
   std::span<int32_t> values;
+  Index most = kNone;  ///< sites that are coded at most
 
   Error labels(uint32_t count) {
     values::LabelCoder<Port> coder(port, sites.graph, count);
-    return everySite([&](Index site) {
+    return everySite([&] {
+      const Index site = coder.next();
       values[site] = static_cast<int32_t>(coder.code(site, static_cast<uint32_t>(values[site])));
     });
   }
 
   Error profile() {
     switch (format.profile) {
-      case ValueProfile::kFast: return kind<1>();
-      case ValueProfile::kDefault: return kind<2>();
-      default: return kind<5>();
+      case ValueProfile::kFast: return kind<values::ClassCoder<1>>();
+      case ValueProfile::kDefault: return kind<values::ClassCoder<2>>();
+      default: return kind<values::MixingCoder>();
     }
   }
 
-  template <int kInputs>
+  template <class Coder>
   Error kind() {
     switch (format.kind) {
-      case ValueKind::kTexcoord: return code<kInputs, 2, TexcoordGuide>();
-      case ValueKind::kDirection: return code<kInputs, 2, DirectionGuide>();
-      default: return components<kInputs>();
+      case ValueKind::kTexcoord: return code<2, int32_t, Coder, TexcoordGuide>();
+      case ValueKind::kDirection: return code<2, int32_t, Coder, DirectionGuide>();
+      case ValueKind::kPoints: return code<3, int32_t, Coder, NoGuide<3>>();
+      default: return components<Coder>();
     }
   }
 
-  template <int kInputs>
+  template <class Coder>
   Error components() {
     switch (format.components) {
-      case 1: return code<kInputs, 1, NoGuide<1>>();
-      case 2: return code<kInputs, 2, NoGuide<2>>();
-      case 3: return code<kInputs, 3, NoGuide<3>>();
-      default: return code<kInputs, 4, NoGuide<4>>();
+      case 1: return code<1, int64_t, Coder, NoGuide<1>>();
+      case 2: return code<2, int64_t, Coder, NoGuide<2>>();
+      case 3: return code<3, int64_t, Coder, NoGuide<3>>();
+      default: return code<4, int64_t, Coder, NoGuide<4>>();
     }
   }
 
-  template <int kInputs, int C, class Guide>
+  template <int C, class T, class Coder, class Guide>
   Error code() {
-    SitePredictor<Port, C, kInputs, Guide> predictor(port, sites.graph, sites.places, format.max,
-                                                     format.kind == ValueKind::kPoints);
-    const Error error = everySite(
-        [&](Index site) { predictor.code(site, std::span<int32_t, C>(&values[size_t{site} * C], size_t{C})); });
+    SitePredictor<Port, C, T, Coder, Guide> predictor(port, sites.graph, sites.places, format.max,
+                                                      format.kind == ValueKind::kPoints, format.echoes);
+    const Error error = everySite([&] {
+      const Index site = predictor.next();
+      predictor.code(site, std::span<int32_t, C>(&values[size_t{site} * C], size_t{C}));
+    });
     if (error != Error::kNone) return error;
     return predictor.damaged() ? Error::kMalformed : Error::kNone;
   }
@@ -75,8 +80,8 @@ struct Run {
   template <class Code>
   Error everySite(Code code) {
     Index until_check = 1;
-    for (Index i = 0; i < sites.graph.siteCount(); ++i) {
-      code(sites.order[i]);
+    for (Index i = std::min(sites.graph.siteCount(), most); i > 0; --i) {
+      code();
       if (Port::kWriting || --until_check != 0) continue;
       if (port.overrun()) return Error::kTruncated;
       until_check = 1024;
@@ -108,8 +113,8 @@ std::vector<int32_t> namesOf(std::span<const int32_t> values, int components, st
   return names;
 }
 
-bool encodeLabels(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values,
-                  ByteWriter& out) {
+bool encodeLabels(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, Index most,
+                  ByteWriter& out, size_t& head) {
   std::vector<int32_t> labels;
   const std::vector<int32_t> names = namesOf(values, format.components, labels);
   if (names.empty()) return false;
@@ -121,8 +126,9 @@ bool encodeLabels(const ValueSites& sites, const ValueFormat& format, std::span<
     const int32_t base = first && i > 0 ? names[i - format.components] : 0;
     out.varint(static_cast<uint32_t>(names[i] - base));
   }
+  head = out.bytes().size();
   ValueWriter port;
-  (void)Run<ValueWriter>{port, sites, format, labels}.labels(count);
+  (void)Run<ValueWriter>{port, sites, format, labels, most}.labels(count);
   std::move(port).finish(out);
   return true;
 }
@@ -176,6 +182,7 @@ bool supports(const ValueSites& sites, const ValueFormat& format) {
   const bool places = sites.places.size() == size_t{sites.graph.siteCount()} * 3;
   if (!places && !sites.places.empty()) return false;
   if (format.ranked && format.kind != ValueKind::kPlain && format.kind != ValueKind::kPoints) return false;
+  if (format.echoes && format.kind == ValueKind::kLabel) return false;
   switch (format.kind) {
     case ValueKind::kPlain:
     case ValueKind::kLabel: return true;
@@ -186,25 +193,48 @@ bool supports(const ValueSites& sites, const ValueFormat& format) {
   return false;
 }
 
-bool encodeValues(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values,
-                  ByteWriter& out) {
+namespace {
+
+/// `head` becomes how much was written before the values.
+bool encodeSome(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, Index most,
+                ByteWriter& out, size_t& head) {
   if (!supports(sites, format) || values.empty()) return false;
-  if (format.kind == ValueKind::kLabel) return encodeLabels(sites, format, values, out);
-  std::vector<int32_t> scratch(values.begin(), values.end());
+  if (format.kind == ValueKind::kLabel) return encodeLabels(sites, format, values, most, out, head);
+  std::vector<int32_t> scratch;
   ValueFormat coded = format;
   if (format.ranked) {
-    const size_t most =
+    const size_t longest =
         std::min({kMostRanks, static_cast<size_t>(format.max) / 2, size_t{sites.graph.siteCount()} / 2});
-    const std::optional<ValueRanks> ranks = findRanks(values, format.components, most);
+    const std::optional<ValueRanks> ranks = findRanks(values, format.components, format.max, longest);
     if (!ranks) return false;
     writeRanks(*ranks, out);
     scratch = toRanks(*ranks, values);
     coded.max = ranks->largest();
+  } else {
+    scratch.assign(values.begin(), values.end());
   }
+  head = out.bytes().size();
   ValueWriter port;
-  (void)Run<ValueWriter>{port, sites, coded, scratch}.profile();
+  (void)Run<ValueWriter>{port, sites, coded, scratch, most}.profile();
   std::move(port).finish(out);
   return true;
+}
+
+}  // namespace
+
+bool encodeValues(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values,
+                  ByteWriter& out) {
+  size_t head = 0;
+  return encodeSome(sites, format, values, kNone, out, head);
+}
+
+std::optional<size_t> estimateValues(const ValueSites& sites, const ValueFormat& format,
+                                     std::span<const int32_t> values, Index most) {
+  ByteWriter out;
+  size_t head = 0;
+  if (!encodeSome(sites, format, values, most, out, head)) return {};
+  const uint64_t total = sites.graph.siteCount(), tried = std::min<uint64_t>(total, most);
+  return head + static_cast<size_t>((out.bytes().size() - head) * total / tried);
 }
 
 Result<std::vector<int32_t>> decodeValues(const ValueSites& sites, const ValueFormat& format,

@@ -2,6 +2,7 @@
 // Attribute values over a mesh: whole numbers in, bytes out, and back.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,12 +35,12 @@ struct ValueFormat {
   ValueProfile profile = ValueProfile::kDefault;
   ValueKind kind = ValueKind::kPlain;
   bool ranked = false;  ///< (kPlain, kPoints) each component is one of a list: their ranks are coded
+  bool echoes = false;  ///< (not kLabel) values may be those of earlier sites
 };
 
-/// A mesh's sites, and in which order they are coded.
+/// A mesh's sites, and where they are.
 struct ValueSites {
   const ValueGraph& graph;
-  SiteSequence& order;
   std::span<const int32_t> places;  ///< three numbers below 2^20 per site: where it is. kTexcoord needs them,
                                     ///< kDirection is better with them, others do not look at them; may be empty
 };
@@ -50,6 +51,10 @@ bool supports(const ValueSites& sites, const ValueFormat& format);
 /// Appends the values, `components` per site in the order of site numbers. False, and nothing is appended, when the
 /// format is not supported, or has lists that would be too long to be worth it.
 bool encodeValues(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, ByteWriter& out);
+
+/// How many bytes encodeValues() would make, told from the first `most` sites in its order; nothing when it would fail.
+std::optional<size_t> estimateValues(const ValueSites& sites, const ValueFormat& format,
+                                     std::span<const int32_t> values, Index most);
 
 /// The values of any bytes, each within [0, max], or an error (kTruncated, kMalformed). All of `bytes` must be used.
 Result<std::vector<int32_t>> decodeValues(const ValueSites& sites, const ValueFormat& format,

@@ -116,6 +116,21 @@ struct Stream {
   std::vector<uint8_t> bytes;
 };
 
+/// The connectivity's profile; where it is left open, small meshes get the best, because their time does not count, and
+/// huge ones the fastest.
+ValueProfile valueProfile(std::optional<Profile> profile, size_t corners) {
+  if (!profile) {
+    return corners <= 40'000       ? ValueProfile::kSmall
+           : corners <= 40'000'000 ? ValueProfile::kDefault
+                                   : ValueProfile::kFast;
+  }
+  switch (*profile) {
+    case Profile::kFast: return ValueProfile::kFast;
+    case Profile::kSmall: return ValueProfile::kSmall;
+    default: return ValueProfile::kDefault;
+  }
+}
+
 Outcome<Stream> encodeStream(const AttributeTopology& topology, std::span<const Plane> planes,
                              const PackOptions& options) {
   if (options.attribute_coder == AttributeCoder::kDraco) {
@@ -123,10 +138,13 @@ Outcome<Stream> encodeStream(const AttributeTopology& topology, std::span<const 
     if (!bytes) return bytes.error();
     return Stream{kDracoCoder, *std::move(bytes)};
   }
-  auto bytes = encodeValuePlanes(topology, planes, options.value_profile);
+  auto bytes = encodeValuePlanes(topology, planes,
+                                 valueProfile(options.connectivity.profile, topology.connectivity.umbrellas.size()));
   if (!bytes) return bytes.error();
   Stream own{kValueCoder, *std::move(bytes)};
-  if (options.attribute_coder == AttributeCoder::kTutte) return own;
+  // Draco's coder wins on few meshes, which are small, and takes several times as long.
+  const bool both = topology.wedge_count <= 5000 || options.connectivity.effort >= 2;
+  if (options.attribute_coder == AttributeCoder::kTutte || !both) return own;
   // What Draco cannot code at all is no reason to fail.
   auto draco = encodePlanes(topology, planes);
   if (draco && draco->size() < own.bytes.size()) return Stream{kDracoCoder, *std::move(draco)};

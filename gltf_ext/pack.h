@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "codec/encode.h"
-#include "codec/values.h"
 #include "gltf_ext/failure.h"
 #include "gltf_ext/polygon_mesh.h"
 
@@ -28,8 +27,7 @@ struct PackOptions {
   int color_bits = 8;
   int generic_bits = 12;  ///< custom float attributes and morph-target deltas of anything but positions
   AttributeCoder attribute_coder = AttributeCoder::kAuto;
-  ValueProfile value_profile = ValueProfile::kDefault;  ///< of kTutte
-  EncodeOptions connectivity;                           ///< profile and effort of the connectivity coder
+  EncodeOptions connectivity;  ///< profile and effort, which kTutte shares
 };
 
 /// A payload and how it relates to the mesh that it was made from.

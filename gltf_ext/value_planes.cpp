@@ -1,6 +1,8 @@
 #include "gltf_ext/value_planes.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -8,23 +10,22 @@
 namespace tutte {
 namespace {
 
-/// Where an attribute's values sit, and in which order they are coded.
+/// Where an attribute's values sit.
 struct Layout {
-  WedgeSites wedges;
+  WedgeSites wedges;  ///< no entries: every wedge is a site
   std::optional<ValueGraph> graph;
-  std::optional<SiteSequence> order;
 };
 
 /// The layouts of one mesh, made when they are first asked for; attributes with equal seams share one.
 class Layouts {
  public:
-  explicit Layouts(const AttributeTopology& topology) : topology_(topology) {}
+  explicit Layouts(const AttributeTopology& topology) : topology_(topology), whole_(whole()) {}
 
   Layout& get(size_t attribute) {
     const bool positions = attribute == 0;
     const std::span<const uint8_t> seams = attribute < topology_.seams.size() ? topology_.seams[attribute] : none_;
     for (const Entry& entry : entries_) {
-      const bool same = whole() || (entry.positions == positions && std::ranges::equal(entry.seams, seams));
+      const bool same = whole_ || (entry.positions == positions && std::ranges::equal(entry.seams, seams));
       if (same) return *entry.layout;
     }
     entries_.push_back({positions, seams, make(positions, seams)});
@@ -48,18 +49,32 @@ class Layouts {
   std::unique_ptr<Layout> make(bool positions, std::span<const uint8_t> seams) const {
     const Connectivity& mesh = topology_.connectivity;
     auto layout = std::make_unique<Layout>();
-    layout->wedges = positions ? joinVertices(mesh, topology_.wedges, topology_.wedge_count)
-                               : joinWedges(mesh, topology_.wedges, topology_.wedge_count, seams);
-    const auto site_of = [&](Index corner) { return layout->wedges.site_of[topology_.wedges[corner]]; };
-    layout->graph.emplace(mesh, layout->wedges.count, site_of);
-    layout->order.emplace(*layout->graph);
+    layout->wedges = whole_      ? WedgeSites{{}, topology_.wedge_count}
+                     : positions ? joinVertices(mesh, topology_.wedges, topology_.wedge_count)
+                                 : joinWedges(mesh, topology_.wedges, topology_.wedge_count, seams);
+    std::vector<Index> own;
+    std::span<const Index> sites = mesh.umbrellas;
+    if (!whole_) {
+      own.reserve(sites.size());
+      for (const Index wedge : topology_.wedges) own.push_back(layout->wedges.site_of[wedge]);
+      sites = own;
+    }
+    layout->graph.emplace(mesh, sites, layout->wedges.count);
     return layout;
   }
 
   const AttributeTopology& topology_;
+  const bool whole_;
   const std::span<const uint8_t> none_;
   std::vector<Entry> entries_;
 };
+
+/// True when all numbers are below a limit, which is below 2^31; with `spare` 1, they may also be kNone.
+bool allBelow(std::span<const Index> numbers, Index limit, Index spare = 0) {
+  Index below = ~0u;  // its top bit; without decisions, so that compilers make vectors of it
+  for (const Index number : numbers) below &= (number + spare - (limit + spare)) & ~(number + spare);
+  return below >> 31 != 0;
+}
 
 bool consistent(const AttributeTopology& topology) {
   const Connectivity& mesh = topology.connectivity;
@@ -67,34 +82,40 @@ bool consistent(const AttributeTopology& topology) {
   uint64_t sum = 0;
   for (const Index degree : mesh.face_degrees) sum += degree;
   if (sum != corners || mesh.twins.size() != corners || topology.wedges.size() != corners) return false;
-  for (size_t c = 0; c < corners; ++c) {
-    const bool twin_exists = mesh.twins[c] == kNone || mesh.twins[c] < corners;
-    if (!twin_exists || mesh.umbrellas[c] >= mesh.umbrella_count) return false;
-    if (mesh.vertexOf(static_cast<Index>(c)) >= mesh.vertex_count || topology.wedges[c] >= topology.wedge_count)
-      return false;
+  if (!allBelow(mesh.umbrellas, mesh.umbrella_count) || !allBelow(topology.wedges, topology.wedge_count)) return false;
+  if (!allBelow(mesh.twins, static_cast<Index>(corners), 1)) return false;
+  if (!allBelow(mesh.vertices, mesh.vertex_count)) return false;
+  if (mesh.vertices.empty() ? mesh.umbrella_count > mesh.vertex_count : mesh.vertices.size() != mesh.umbrella_count) {
+    return false;
   }
   return std::ranges::all_of(topology.seams, [&](auto seams) { return seams.empty() || seams.size() == corners; });
 }
 
-// The first byte of a plane's stream: the profile in bits 0 and 1, the kind of its values in bits 2 to 4, then kRanked.
-constexpr uint8_t kProfileMask = 3, kKindMask = 7, kRanked = 32;
+// The first byte of a plane's stream: the profile in bits 0 and 1, the kind of its values in bits 2 to 4, then two
+// flags.
+constexpr uint8_t kProfileMask = 3, kKindMask = 7, kRanked = 32, kEchoes = 64;
 constexpr int kKindShift = 2;
 
 uint8_t headOf(const ValueFormat& format) {
   return static_cast<uint8_t>(static_cast<int>(format.profile) | static_cast<int>(format.kind) << kKindShift |
-                              (format.ranked ? kRanked : 0));
+                              (format.ranked ? kRanked : 0) | (format.echoes ? kEchoes : 0));
 }
 
 std::optional<ValueFormat> formatOf(const Plane& plane, uint8_t head) {
   const int profile = head & kProfileMask, kind = head >> kKindShift & kKindMask;
   if (profile > static_cast<int>(ValueProfile::kSmall) || kind > static_cast<int>(ValueKind::kLabel)) return {};
-  if (head >= 2 * kRanked) return {};
-  return ValueFormat{plane.components, plane.max, static_cast<ValueProfile>(profile), static_cast<ValueKind>(kind),
-                     (head & kRanked) != 0};
+  if (head >= 2 * kEchoes) return {};
+  return ValueFormat{plane.components,
+                     plane.max,
+                     static_cast<ValueProfile>(profile),
+                     static_cast<ValueKind>(kind),
+                     (head & kRanked) != 0,
+                     (head & kEchoes) != 0};
 }
 
 /// The values per site; empty when wedges of one site differ.
 std::vector<int32_t> siteValues(const Plane& plane, const WedgeSites& wedges) {
+  if (wedges.site_of.empty()) return plane.values;
   const size_t components = plane.components;
   std::vector<int32_t> values(wedges.count * components, -1);
   for (size_t w = 0; w < wedges.site_of.size(); ++w) {
@@ -106,7 +127,11 @@ std::vector<int32_t> siteValues(const Plane& plane, const WedgeSites& wedges) {
   return values;
 }
 
-void spreadValues(std::span<const int32_t> values, const WedgeSites& wedges, Plane& plane) {
+void spreadValues(std::vector<int32_t>&& values, const WedgeSites& wedges, Plane& plane) {
+  if (wedges.site_of.empty()) {
+    plane.values = std::move(values);
+    return;
+  }
   const size_t components = plane.components;
   plane.values.resize(wedges.site_of.size() * components);
   for (size_t w = 0; w < wedges.site_of.size(); ++w) {
@@ -117,6 +142,7 @@ void spreadValues(std::span<const int32_t> values, const WedgeSites& wedges, Pla
 /// Where each site is, by the positions of its wedges; empty when there are none to predict from.
 std::vector<int32_t> placesOf(std::span<const Plane> planes, size_t current, const WedgeSites& wedges) {
   if (current == 0 || planes[0].kind != PlaneKind::kPosition) return {};
+  if (wedges.site_of.empty()) return planes[0].values;
   std::vector<int32_t> places(size_t{wedges.count} * 3);
   for (size_t w = 0; w < wedges.site_of.size(); ++w) {
     std::copy_n(&planes[0].values[w * 3], 3, &places[size_t{wedges.site_of[w]} * 3]);
@@ -130,33 +156,66 @@ struct Trial {
   bool ranked = false;
 };
 
-/// What an encoder tries; the smallest is kept.
+/// What an encoder tries; the smallest is kept. On large meshes it is told from so many sites.
+constexpr Index kMostTried = 8192;
+
 std::vector<Trial> trialsFor(PlaneKind kind) {
   switch (kind) {
     case PlaneKind::kPosition:
-      return {{ValueKind::kPoints}, {ValueKind::kPlain}, {ValueKind::kPoints, true}, {ValueKind::kPlain, true}};
-    case PlaneKind::kTexcoord: return {{ValueKind::kTexcoord}, {ValueKind::kPlain}, {ValueKind::kLabel}};
+      return {{ValueKind::kPoints}, {ValueKind::kPoints, true}, {ValueKind::kPlain, true}, {ValueKind::kPlain}};
+    case PlaneKind::kTexcoord: return {{ValueKind::kTexcoord}, {ValueKind::kLabel}, {ValueKind::kPlain}};
     case PlaneKind::kNormal:
-    case PlaneKind::kDirection: return {{ValueKind::kDirection}, {ValueKind::kPlain}, {ValueKind::kLabel}};
-    default: return {{ValueKind::kPlain}, {ValueKind::kPlain, true}, {ValueKind::kLabel}};
+    case PlaneKind::kDirection: return {{ValueKind::kDirection}, {ValueKind::kLabel}, {ValueKind::kPlain}};
+    default: return {{ValueKind::kPlain, true}, {ValueKind::kLabel}, {ValueKind::kPlain}};
   }
+}
+
+/// The one of the formats that takes the fewest bytes for the first `most` sites; the last one can always be had.
+ValueFormat bestOf(const ValueSites& sites, std::span<const ValueFormat> formats, std::span<const int32_t> values,
+                   Index most) {
+  std::optional<ValueFormat> best;
+  size_t least = 0;
+  for (const ValueFormat& format : formats) {
+    const std::optional<size_t> size = estimateValues(sites, format, values, most);
+    if (!size || (best && *size >= least)) continue;
+    best = format;
+    least = *size;
+  }
+  return best.value_or(formats.back());
+}
+
+/// True when at least one value in 64 has been there before, as far as a small table tells.
+bool repeats(std::span<const int32_t> values, size_t components) {
+  std::vector<size_t> last(size_t{1} << std::bit_width(values.size()), values.size());
+  size_t found = 0;
+  for (size_t i = 0; i < values.size(); i += components) {
+    const auto value = values.subspan(i, components);
+    uint32_t hash = 0;
+    for (const int32_t x : value) hash = (hash ^ static_cast<uint32_t>(x)) * 0x9E3779B1u + 0x7F4A7C15u;
+    size_t& slot = last[(hash ^ hash >> 15) & (last.size() - 1)];
+    found += slot < i && std::ranges::equal(values.subspan(slot, components), value);
+    slot = i;
+  }
+  return found * 64 >= values.size() / components;
 }
 
 void writePlane(const ValueSites& sites, const Plane& plane, std::span<const int32_t> values, ValueProfile profile,
                 ByteWriter& out) {
-  uint8_t head = 0;
-  std::vector<uint8_t> smallest;
+  std::vector<ValueFormat> formats;
   for (const Trial& trial : trialsFor(plane.kind)) {
-    const ValueFormat format{plane.components, plane.max, profile, trial.kind, trial.ranked};
-    ByteWriter bytes;
-    if (!encodeValues(sites, format, values, bytes)) continue;
-    if (!smallest.empty() && smallest.size() <= bytes.bytes().size()) continue;
-    smallest = std::move(bytes).take();
-    head = headOf(format);
+    formats.push_back({plane.components, plane.max, profile, trial.kind, trial.ranked});
   }
-  out.byte(head);
-  out.varint(static_cast<uint32_t>(smallest.size()));
-  out.append(smallest);
+  ValueFormat format = bestOf(sites, formats, values, kMostTried);
+  if (repeats(values, plane.components)) {
+    ValueFormat echoing = format;
+    echoing.echoes = true;
+    format = bestOf(sites, std::array{echoing, format}, values, kMostTried);
+  }
+  ByteWriter bytes;
+  encodeValues(sites, format, values, bytes);
+  out.byte(headOf(format));
+  out.varint(static_cast<uint32_t>(bytes.bytes().size()));
+  out.append(bytes.bytes());
 }
 
 bool readPlane(const ValueSites& sites, const WedgeSites& wedges, ByteReader& in, Plane& plane) {
@@ -167,9 +226,9 @@ bool readPlane(const ValueSites& sites, const WedgeSites& wedges, ByteReader& in
   plane.coded_bytes = static_cast<uint32_t>(before - in.remaining());
   const std::optional<ValueFormat> format = formatOf(plane, head);
   if (in.error() != Error::kNone || !format) return false;
-  const Result<std::vector<int32_t>> values = decodeValues(sites, *format, bytes);
+  Result<std::vector<int32_t>> values = decodeValues(sites, *format, bytes);
   if (!values) return false;
-  spreadValues(*values, wedges, plane);
+  spreadValues(*std::move(values), wedges, plane);
   return true;
 }
 
@@ -189,7 +248,7 @@ Outcome<std::vector<uint8_t>> encodeValuePlanes(const AttributeTopology& topolog
       return Failure{FailureKind::kInvalid, "", "an attribute has two values where its seams allow one"};
     }
     const std::vector<int32_t> places = placesOf(planes, i, layout.wedges);
-    writePlane({*layout.graph, *layout.order, places}, plane, values, profile, out);
+    writePlane({*layout.graph, places}, plane, values, profile, out);
   }
   return std::move(out).take();
 }
@@ -202,7 +261,7 @@ bool decodeValuePlanes(const AttributeTopology& topology, std::span<const uint8_
   for (size_t i = 0; i < planes.size(); ++i) {
     Layout& layout = layouts.get(planes[i].attribute);
     const std::vector<int32_t> places = placesOf(planes, i, layout.wedges);
-    if (!readPlane({*layout.graph, *layout.order, places}, layout.wedges, in, planes[i])) return false;
+    if (!readPlane({*layout.graph, places}, layout.wedges, in, planes[i])) return false;
   }
   return in.error() == Error::kNone && in.remaining() == 0;
 }

@@ -37,7 +37,7 @@ void addConnectivity(CLI::App& command, EncodeOptions& options) {
   command
       .add_option_function<Profile>(
           "--profile", [&options](const Profile& profile) { options.profile = profile; },
-          "statistics of the connectivity; without it, chosen by the size of the mesh")
+          "statistics of connectivity and attributes; without it, chosen by the size of the mesh")
       ->transform(CLI::CheckedTransformer(profiles))
       ->option_text("fast|default|small|paper")
       ->group("Connectivity");

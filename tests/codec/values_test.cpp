@@ -8,6 +8,7 @@
 
 #include "codec/bytes.h"
 #include "codec/encode.h"
+#include "codec/value_order.h"
 #include "tests/shapes/shapes.h"
 
 namespace tutte {
@@ -18,14 +19,17 @@ constexpr ValueProfile kProfiles[] = {ValueProfile::kFast, ValueProfile::kDefaul
 /// A mesh with one site per vertex.
 struct Sites {
   explicit Sites(const Encoded& encoded)
-      : graph(encoded.connectivity, encoded.connectivity.vertex_count,
-              [&](Index corner) { return encoded.connectivity.vertexOf(corner); }),
-        order(graph),
+      : graph(encoded.connectivity, vertices(encoded.connectivity), encoded.connectivity.vertex_count),
         vertex_order(encoded.vertex_order) {}
   Sites(const Sites&) = delete;
 
+  static std::vector<Index> vertices(const Connectivity& mesh) {
+    std::vector<Index> vertices;
+    for (Index corner = 0; corner < mesh.umbrellas.size(); ++corner) vertices.push_back(mesh.vertexOf(corner));
+    return vertices;
+  }
+
   ValueGraph graph;
-  mutable SiteSequence order;
   std::vector<Index> vertex_order;
 };
 
@@ -51,19 +55,23 @@ std::vector<int32_t> someValues(const Sites& sites, int components, int32_t max,
 
 std::vector<uint8_t> bytesOf(const Sites& sites, const ValueFormat& format, std::span<const int32_t> values) {
   ByteWriter out;
-  EXPECT_TRUE(encodeValues({sites.graph, sites.order, {}}, format, values, out));
+  EXPECT_TRUE(encodeValues({sites.graph, {}}, format, values, out));
   return std::move(out).take();
 }
 
 TEST(Values, OrderVisitsEverySiteOnce) {
   for (const auto& [name, shape] : shapes::allShapes()) {
-    Sites sites = vertexSites(shape.mesh);
-    std::vector<bool> seen(sites.graph.siteCount(), false);
-    for (size_t i = 0; i < seen.size(); ++i) {
-      const Index site = sites.order[i];
-      ASSERT_LT(site, seen.size()) << name;
-      ASSERT_FALSE(seen[site]) << name;
-      seen[site] = true;
+    const Sites sites = vertexSites(shape.mesh);
+    SiteOrder order(sites.graph.siteCount());
+    Urgencies urgencies;
+    for (Index i = 0; i < sites.graph.siteCount(); ++i) {
+      const Index site = order.next();
+      ASSERT_LT(site, sites.graph.siteCount()) << name;
+      ASSERT_FALSE(order.known(site)) << name;
+      urgencies.clear();
+      sites.graph.forCorners(site, [&](Index corner) { addUrgencies(sites.graph, corner, order, urgencies); });
+      order.urge(urgencies.entries());
+      order.learn(site, false);
     }
   }
 }
@@ -79,7 +87,7 @@ TEST(Values, RoundTrips) {
           const std::vector<int32_t> values = someValues(sites, components, max, static_cast<uint64_t>(max));
           if (values.empty()) continue;
           const std::vector<uint8_t> bytes = bytesOf(sites, format, values);
-          const Result<std::vector<int32_t>> decoded = decodeValues({sites.graph, sites.order, {}}, format, bytes);
+          const Result<std::vector<int32_t>> decoded = decodeValues({sites.graph, {}}, format, bytes);
           ASSERT_TRUE(decoded) << name << ": " << describe(decoded.error());
           ASSERT_EQ(*decoded, values) << name << ", " << components << " components up to " << max;
         }
@@ -97,7 +105,7 @@ TEST(Values, Extremes) {
       std::vector<int32_t> values(size_t{sites.graph.siteCount()} * 3);
       for (int32_t& value : values) value = random.below(2) ? max : 0;
       const ValueFormat format{3, max, profile, max < 1 << 20 ? ValueKind::kPoints : ValueKind::kPlain};
-      const auto decoded = decodeValues({sites.graph, sites.order, {}}, format, bytesOf(sites, format, values));
+      const auto decoded = decodeValues({sites.graph, {}}, format, bytesOf(sites, format, values));
       ASSERT_TRUE(decoded);
       EXPECT_EQ(*decoded, values);
     }
@@ -119,7 +127,7 @@ TEST(Values, PlanesAreNearlyFree) {
 }
 
 bool isHarmless(const Sites& sites, const ValueFormat& format, std::span<const uint8_t> bytes) {
-  const auto decoded = decodeValues({sites.graph, sites.order, {}}, format, bytes);
+  const auto decoded = decodeValues({sites.graph, {}}, format, bytes);
   if (!decoded) return true;
   if (decoded->size() != size_t{sites.graph.siteCount()} * format.components) return false;
   for (const int32_t value : *decoded) {
@@ -144,7 +152,7 @@ TEST(Values, DamagedBytes) {
           bytes[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
         }
         bytes.push_back(1);
-        EXPECT_FALSE(decodeValues({sites.graph, sites.order, {}}, format, bytes));
+        EXPECT_FALSE(decodeValues({sites.graph, {}}, format, bytes));
       }
     }
   }
@@ -187,7 +195,7 @@ TEST(Values, GuidedRoundTripsAndDamage) {
     for (const ValueProfile profile : kProfiles) {
       for (const ValueKind kind : {ValueKind::kTexcoord, ValueKind::kDirection}) {
         const Guided given = guided(sites, kind, profile);
-        const ValueSites where{sites.graph, sites.order, given.places};
+        const ValueSites where{sites.graph, given.places};
         ByteWriter out;
         ASSERT_TRUE(encodeValues(where, given.format, given.values, out));
         std::vector<uint8_t> bytes = std::move(out).take();
@@ -221,7 +229,7 @@ TEST(Values, ListsRoundTripsAndDamage) {
         for (const ValueFormat& format :
              {ValueFormat{components, max, ValueProfile::kDefault, ValueKind::kLabel},
               ValueFormat{components, max, ValueProfile::kDefault, ValueKind::kPlain, true}}) {
-          const ValueSites where{sites.graph, sites.order, {}};
+          const ValueSites where{sites.graph, {}};
           ByteWriter out;
           if (!encodeValues(where, format, values, out)) continue;
           std::vector<uint8_t> bytes = std::move(out).take();
@@ -242,7 +250,7 @@ TEST(Values, ListsRoundTripsAndDamage) {
 
 TEST(Values, UnsupportedFormatsAreRefused) {
   const Sites sites = vertexSites(shapes::cube().mesh);
-  const ValueSites where{sites.graph, sites.order, {}};
+  const ValueSites where{sites.graph, {}};
   EXPECT_TRUE(supports(where, {3, 100, ValueProfile::kDefault, ValueKind::kPoints}));
   EXPECT_FALSE(supports(where, {2, 100, ValueProfile::kDefault, ValueKind::kPoints}));
   EXPECT_FALSE(supports(where, {2, 100, ValueProfile::kDefault, ValueKind::kTexcoord}));  // no places

@@ -1,0 +1,164 @@
+#pragma once
+// Adaptive coding of residuals by classes of sizes: one symbol of sixteen per residual, then its sign and digits. The
+// distributions of one or two contexts are blended. Fast: no decision is taken more than once per residual.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "codec/value_lanes.h"
+#include "codec/value_model.h"
+
+namespace tutte::values {
+
+/// A distribution that learns; the last lane, which is 0 in all distributions, counts what was seen.
+class Habit {
+ public:
+  Habit() = default;
+  explicit Habit(const Distribution& prior) : distribution_(prior) {}
+
+  const Distribution& distribution() const { return distribution_; }
+
+  void learn(int symbol) {
+    approach(distribution_, kTargets[symbol], kRates[seen_]);
+    seen_ += seen_ < kLimit;
+  }
+
+ private:
+  static constexpr uint32_t kLimit = 127;
+  static constexpr int kLeast = 3;
+
+  // Where distributions go if only one symbol is seen: every other one keeps a little.
+  static constexpr std::array<Distribution, kSymbols> kTargets = [] {
+    std::array<Distribution, kSymbols> targets{};
+    for (int symbol = 0; symbol < kSymbols; ++symbol) {
+      for (int i = 0; i < kSymbols - 1; ++i) {
+        targets[symbol].above[i] =
+            static_cast<uint16_t>(kLeast * (kSymbols - 1 - i) + (i < symbol ? 32768 - 16 * kLeast : 0));
+      }
+    }
+    return targets;
+  }();
+
+  static constexpr std::array<int32_t, kLimit + 1> kRates = [] {
+    std::array<int32_t, kLimit + 1> rates{};
+    for (uint32_t n = 0; n <= kLimit; ++n) rates[n] = static_cast<int32_t>(655360 / (10 * n + 160));
+    return rates;
+  }();
+
+  Distribution distribution_;
+  uint32_t seen_ = 0;
+};
+
+/// Residuals in classes: 0, 1, 2, 3, 4 to 5, 6 to 7, 8 to 11, 12 to 15 and so on, two for each bit length.
+inline int classOf(uint32_t magnitude) {
+  if (magnitude < 2) return static_cast<int>(magnitude);
+  const int length = std::bit_width(magnitude);
+  return 2 * (length - 1) + static_cast<int>(magnitude >> (length - 2) & 1);
+}
+
+/// With large residuals the lowest classes are one: all magnitudes below 2^shift. Level as in ResidualContext.
+constexpr int shiftOf(int level) { return level < 28 ? 0 : (level - 24) >> 2; }
+
+/// Expected sizes of residuals, in steps of half an octave (half a level).
+inline constexpr uint32_t kScales = 32;
+
+/// What is expected before anything was seen: sizes m or larger have the probability (4 s / (4 s + m - 1/2))^4, s being
+/// the expected size.
+inline constexpr std::array<Distribution, kScales> kPriors = [] {
+  std::array<Distribution, kScales> priors{};
+  uint64_t power = 84990;  // 2^((2 scale + 3/2) / 4), in 1/65536
+  for (uint32_t scale = 0; scale < kScales; ++scale) {
+    const uint64_t size = (power * 102 - 65536 * 51) >> 16;  // in 1/256
+    const int shift = shiftOf(static_cast<int>(2 * scale));
+    uint32_t last = 32768;
+    for (int i = 0; i < kSymbols - 1; ++i) {
+      const int least_class = i + 1 + (shift == 0 ? 0 : 2 * shift - 1);
+      const uint64_t least = least_class < 2 ? static_cast<uint64_t>(least_class)
+                                             : (uint64_t{2} + (least_class & 1)) << (least_class / 2 - 1);
+      const uint64_t ratio = (4 * size << 16) / (4 * size + 256 * least - 128);
+      const uint64_t square = ratio * ratio >> 16;
+      const auto above = static_cast<uint32_t>(square * square >> 17);
+      // Every symbol keeps a little.
+      last = std::max(std::min(above, last - 3), 3u * static_cast<uint32_t>(kSymbols - 1 - i));
+      priors[scale].above[i] = static_cast<uint16_t>(last);
+    }
+    power = power * 92682 >> 16;
+  }
+  return priors;
+}();
+
+template <int kContexts>
+class ClassCoder {
+ public:
+  static constexpr int kInputs = kContexts;
+
+  ClassCoder() {
+    habits_.reserve(kScales * kRows);
+    for (uint32_t line = 0; line < kScales * kRows; ++line) habits_.emplace_back(kPriors[line / kRows]);
+    if constexpr (kContexts == 1) return;
+    seconds_.reserve(kSeconds);
+    for (uint32_t line = 0; line < kSeconds; ++line) seconds_.emplace_back(kPriors[line % 16 * 2]);
+  }
+
+  template <class Port>
+  [[gnu::always_inline]] int64_t code(Port& port, const ResidualContext& context, int64_t residual) {
+    const auto magnitude = static_cast<uint32_t>(residual < 0 ? -residual : residual);
+    const int shift = shiftOf(context.level);
+    const int first = shift == 0 ? 0 : 2 * shift - 1;
+    const int value_class = std::max(classOf(magnitude) - first, 0);
+    int symbol = codeSymbol(port, context, std::min(value_class, kSymbols - 1));
+    uint32_t decoded;
+    if (symbol == 0) {
+      if (shift == 0) return 0;
+      decoded = port.bits(shift, magnitude);
+      if (decoded == 0) return 0;
+    } else {
+      if (symbol == kSymbols - 1) {
+        while (symbol + first < kMostClass &&
+               longer_[std::min(symbol - kSymbols + 1, 7)].code(port, value_class > symbol))
+          ++symbol;
+      }
+      decoded = codeDigits(port, symbol + first, magnitude);
+    }
+    Chance& sign = signs_[(context.sign * 3 + context.component) * 4 + std::min(symbol, 3)];
+    const bool negative = sign.code(port, residual < 0);
+    return negative ? -int64_t{decoded} : int64_t{decoded};
+  }
+
+ private:
+  static constexpr uint32_t kRows = 12, kSeconds = 15 * 6 * 16;
+  static constexpr int kMostClass = 59;  // of residuals below 2^30
+
+  template <class Port>
+  int codeSymbol(Port& port, const ResidualContext& context, int symbol) {
+    Habit& first = habits_[context.line[0]];
+    if constexpr (kContexts == 1) {
+      symbol = port.symbol(first.distribution(), symbol);
+    } else {
+      Habit& second = seconds_[context.line[1]];
+      Distribution both;
+      blend(first.distribution(), second.distribution(), 32767, both);
+      symbol = port.symbol(both, symbol);
+      second.learn(symbol);
+    }
+    first.learn(symbol);
+    return symbol;
+  }
+
+  template <class Port>
+  static uint32_t codeDigits(Port& port, int value_class, uint32_t magnitude) {
+    if (value_class < 4) return static_cast<uint32_t>(value_class);
+    const int rest = (value_class >> 1) - 1;
+    const uint32_t leading = 2u + static_cast<uint32_t>(value_class & 1);
+    return leading << rest | port.bits(rest, magnitude & ((1u << rest) - 1));
+  }
+
+  std::vector<Habit> habits_, seconds_;
+  std::array<Chance, kSigns * 3 * 4> signs_;
+  std::array<Chance, 8> longer_;
+};
+
+}  // namespace tutte::values

@@ -1,0 +1,134 @@
+#pragma once
+// The order in which values are coded.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "codec/value_graph.h"
+
+namespace tutte {
+
+/// Sites that have become more urgent, and by how much, after one site has become known. Whether a site is known is
+/// hard to foresee, so nothing is decided while the list is made: it grows by 0 or 1.
+class Urgencies {
+ public:
+  /// A site, and in the upper half by how much.
+  using Entry = uint64_t;
+
+  // For each corner of the site: a and b are the sites beside it in its face, c and d the next ones on their sides; in
+  // a quad, c is opposite.
+  void addTriangle(Index a, bool know_a, Index b, bool know_b) {
+    add(a, Entry{know_b} * 2, !know_a);
+    add(b, Entry{know_a} * 2, !know_b);
+  }
+
+  void addQuad(Index a, bool know_a, Index b, bool know_b, Index c, bool know_c) {
+    const int others = know_a + know_b + know_c;
+    const Entry amount = others == 2 ? 16 : others == 1 ? 2 : 0;
+    add(a, amount, !know_a);
+    add(b, amount, !know_b);
+    add(c, amount, !know_c & (others == 2));
+  }
+
+  void addPolygon(Index a, bool know_a, Index b, bool know_b, bool know_c, bool know_d) {
+    add(a, know_c ? 8 : know_b ? 2 : 0, !know_a);
+    add(b, know_d ? 8 : know_a ? 2 : 0, !know_b);
+  }
+
+  void clear() { count_ = 0; }
+  std::span<const Entry> entries() const { return {entries_.data(), static_cast<size_t>(count_)}; }
+
+ private:
+  void add(Index site, Entry amount, bool really) {
+    entries_[count_] = amount << 32 | site;
+    count_ += really;
+  }
+
+  std::array<Entry, 3 * ValueGraph::kMostCorners + 1> entries_;
+  int count_ = 0;
+};
+
+/// Always one of the sites with the most known surroundings is next, so that most values are predicted by several
+/// parallelograms. A function of the graph alone. O(corners) in all.
+///
+/// Per site: urge() with the Urgencies of all its corners in faces of degree above 2, then learn().
+class SiteOrder {
+ public:
+  explicit SiteOrder(Index sites)
+      : scores_(sites, 0), stacked_(new Index[(size_t{sites} + 1) * kLevels]), stride_(size_t{sites} + 1) {}
+
+  /// The next site; there must be one that is not known.
+  Index next() {
+    for (; top_ >= 0; --top_) {
+      Index& size = sizes_[top_];
+      while (size > 0) {
+        const Index site = stacked_[stride_ * top_ + --size];
+        if (!known(site)) return site;
+      }
+    }
+    while (known(seed_)) ++seed_;
+    return seed_;
+  }
+
+  bool known(Index site) const { return scores_[site] >= kKnown; }
+  bool marked(Index site) const { return scores_[site] == kMarked; }
+
+  /// A site is known from now on. The mark is the caller's.
+  void learn(Index site, bool mark) { scores_[site] = mark ? kMarked : kKnown; }
+
+  /// The sites must not be known.
+  void urge(std::span<const Urgencies::Entry> entries) {
+    for (const Urgencies::Entry entry : entries) {
+      const auto site = static_cast<Index>(entry), amount = static_cast<Index>(entry >> 32);
+      const unsigned before = scores_[site];
+      const unsigned now = std::clamp(before + amount, 1u, kMost);
+      scores_[site] = static_cast<uint16_t>(now);
+      // A site comes to every level once, so that no stack overflows.
+      const unsigned level = kLevelOf[now];
+      const bool rises = level != kLevelOf[before];
+      stacked_[stride_ * level + sizes_[level]] = site;
+      sizes_[level] += rises;
+      top_ = rises ? std::max(top_, static_cast<int>(level)) : top_;
+    }
+  }
+
+ private:
+  static constexpr int kLevels = 6;
+  static constexpr unsigned kMost = 253, kKnown = 254, kMarked = 255;
+
+  // One less than the number of binary digits of the score, at most 5; without a score no level.
+  static constexpr std::array<uint8_t, kMost + 1> kLevelOf = [] {
+    std::array<uint8_t, kMost + 1> levels{};
+    for (unsigned score = 0; score <= kMost; ++score) {
+      levels[score] = static_cast<uint8_t>(std::min<unsigned>(static_cast<unsigned>(std::bit_width(score)) - 1, 5));
+    }
+    levels[0] = 255;
+    return levels;
+  }();
+
+  std::vector<uint16_t> scores_;      // no bytes, of which compilers think that they may be anything
+  std::unique_ptr<Index[]> stacked_;  // kLevels stacks
+  std::array<Index, kLevels> sizes_{};
+  size_t stride_;
+  int top_ = -1;  // no higher stack has anything
+  Index seed_ = 0;
+};
+
+/// All that the order wants to know of a corner, for those who do not look at its surroundings themselves.
+inline void addUrgencies(const ValueGraph& graph, Index corner, const SiteOrder& order, Urgencies& urgencies) {
+  const Index next = graph.next(corner), prev = graph.prev(corner), degree = graph.degree(corner);
+  const Index a = graph.site(next), b = graph.site(prev);
+  const bool know_a = order.known(a), know_b = order.known(b);
+  if (degree == 3) return urgencies.addTriangle(a, know_a, b, know_b);
+  const Index c = graph.site(graph.next(next));
+  if (degree == 4) return urgencies.addQuad(a, know_a, b, know_b, c, order.known(c));
+  urgencies.addPolygon(a, know_a, b, know_b, order.known(c), order.known(graph.site(graph.prev(prev))));
+}
+
+}  // namespace tutte
