@@ -228,7 +228,8 @@ TEST(Values, ListsRoundTripsAndDamage) {
         }
         for (const ValueFormat& format :
              {ValueFormat{components, max, ValueProfile::kDefault, ValueKind::kLabel},
-              ValueFormat{components, max, ValueProfile::kDefault, ValueKind::kPlain, true}}) {
+              ValueFormat{components, max, ValueProfile::kDefault, ValueKind::kPlain, true},
+              ValueFormat{components, max, ValueProfile::kFast, ValueKind::kPlain, false, true}}) {
           const ValueSites where{sites.graph, {}};
           ByteWriter out;
           if (!encodeValues(where, format, values, out)) continue;
@@ -248,6 +249,40 @@ TEST(Values, ListsRoundTripsAndDamage) {
   }
 }
 
+/// Strips side by side: what one strip's border says is not said again by the next one's.
+TEST(Values, EchoesOfOtherBordersAreCheap) {
+  constexpr Index kStrips = 20, kRows = 30;
+  Polygons mesh;
+  for (Index strip = 0; strip < kStrips; ++strip) {
+    const Index first = strip * 2 * (kRows + 1);
+    for (Index row = 0; row < kRows; ++row) {
+      const Index low = first + 2 * row;
+      mesh.face_degrees.push_back(4);
+      mesh.corners.insert(mesh.corners.end(), {low, low + 1, low + 3, low + 2});
+    }
+  }
+  mesh.vertex_count = kStrips * 2 * (kRows + 1);
+  const Sites sites = vertexSites(mesh);
+  std::vector<int32_t> values;
+  for (const Index vertex : sites.vertex_order) {
+    const Index column = vertex / (2 * (kRows + 1)) + vertex % 2, row = vertex % (2 * (kRows + 1)) / 2;
+    shapes::Random random(column * 100 + row);
+    for (const Index place : {column, row, column + row}) {
+      values.push_back(static_cast<int32_t>(100 * place + random.below(60)));
+    }
+  }
+  for (const ValueProfile profile : kProfiles) {
+    ValueFormat format{3, 8191, profile, ValueKind::kPoints};
+    const size_t plain = bytesOf(sites, format, values).size();
+    format.echoes = true;
+    const std::vector<uint8_t> bytes = bytesOf(sites, format, values);
+    EXPECT_LT(bytes.size(), plain * 2 / 3);
+    const auto decoded = decodeValues({sites.graph, {}}, format, bytes);
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(*decoded, values);
+  }
+}
+
 TEST(Values, UnsupportedFormatsAreRefused) {
   const Sites sites = vertexSites(shapes::cube().mesh);
   const ValueSites where{sites.graph, {}};
@@ -255,6 +290,7 @@ TEST(Values, UnsupportedFormatsAreRefused) {
   EXPECT_FALSE(supports(where, {2, 100, ValueProfile::kDefault, ValueKind::kPoints}));
   EXPECT_FALSE(supports(where, {2, 100, ValueProfile::kDefault, ValueKind::kTexcoord}));  // no places
   EXPECT_FALSE(supports(where, {2, 101, ValueProfile::kDefault, ValueKind::kDirection}));
+  EXPECT_FALSE(supports(where, {3, 100, ValueProfile::kDefault, ValueKind::kLabel, false, true}));
   EXPECT_FALSE(supports(where, {5, 100, ValueProfile::kDefault, ValueKind::kPlain}));
   EXPECT_FALSE(supports(where, {1, 1 << 27, ValueProfile::kDefault, ValueKind::kPlain}));
 }

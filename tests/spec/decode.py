@@ -2,12 +2,14 @@
 """A second decoder of the CONNECTIVITY section, written from EXTENSION_SPEC.md, Appendix B, alone and laid out like it.
 
 decode(section) -> Mesh. As a program: decode.py FOLDER checks every FOLDER/*.section against FOLDER/*.mesh, both made by
-the encoder's tests (tests/spec/vectors.cpp), and the worked example in EXTENSION_SPEC.md against FOLDER/cube.paper.section.
+the encoder's tests (tests/spec/vectors.cpp), the worked example in EXTENSION_SPEC.md against FOLDER/cube.paper.section, and
+the streams of attribute values in FOLDER/*.values (values.py).
 """
 import re
 import sys
 from pathlib import Path
 
+import values
 from models import Bit, Number, require
 from walk import Mesh, Walk
 
@@ -178,6 +180,20 @@ def example_bytes(document):
     return bytes.fromhex(re.search(r'The section of the cube, in profile paper:\s*```\n([0-9a-f\s]*)```', document).group(1))
 
 
+def check_values(path):
+    """How many streams there are, and which of them decode to other numbers."""
+    mesh = decode(path.with_suffix('.section').read_bytes())
+    sites = [mesh.vertices[umbrella] for umbrella in mesh.umbrellas]
+    lines, wrong = path.read_text().splitlines(), []
+    for line in lines:
+        m, maximum, head, data, numbers, *places = line.split()
+        places = [int(x) for x in places[0].split(',')] if places else []
+        found = values.decode(mesh, sites, mesh.vertex_count, int(m), int(maximum), int(head), bytes.fromhex(data), places)
+        if found != [int(x) for x in numbers.split(',')]:
+            wrong.append(f'{path.stem}, values of {m} components, head {head}')
+    return len(lines), wrong
+
+
 def main(folder):
     sections = sorted(Path(folder).glob('*.section'))
     wrong = [path.stem for path in sections
@@ -186,9 +202,15 @@ def main(folder):
     document = Path(__file__).resolve().parents[2] / 'EXTENSION_SPEC.md'
     if example_bytes(document.read_text()) != (Path(folder) / 'cube.paper.section').read_bytes():
         wrong.append('the worked example of EXTENSION_SPEC.md')
+    streams = 0
+    for path in sorted(Path(folder).glob('*.values')):
+        count, bad = check_values(path)
+        streams += count
+        wrong += bad
+    print(f'{streams} streams of values read')
     for name in wrong:
         print(f'WRONG: {name}', file=sys.stderr)
-    return 1 if wrong or not sections else 0
+    return 1 if wrong or not sections or not streams else 0
 
 
 if __name__ == '__main__':

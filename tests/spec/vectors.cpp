@@ -1,13 +1,16 @@
-// Writes test vectors for decoders: per shape the encoder's connectivity section and, as text, the mesh that it means.
+// Writes test vectors for decoders: per shape the encoder's connectivity section and, as text, the mesh that it means;
+// for small shapes also streams of attribute values and, as text, the numbers that they mean.
 //
 //   vectors FOLDER
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "codec/decode.h"
 #include "codec/encode.h"
+#include "codec/values.h"
 #include "tests/shapes/shapes.h"
 
 namespace tutte {
@@ -38,6 +41,96 @@ bool writeVector(const std::filesystem::path& folder, const shapes::Named& named
   return section.good() && mesh.good();
 }
 
+/// Numbers over a mesh's vertices, smooth like coordinates: per component the distance from some vertex, and noise.
+std::vector<int32_t> numbersOver(const Connectivity& mesh, int components, int32_t max, Index noise) {
+  shapes::Random random(static_cast<uint64_t>(max) + noise);
+  std::vector<int32_t> numbers(size_t{mesh.vertex_count} * components);
+  for (int i = 0; i < components; ++i) {
+    std::vector<int32_t> steps(mesh.vertex_count, 0);
+    steps[random.below(mesh.vertex_count)] = 1;
+    for (bool more = true; std::exchange(more, false);) {
+      Index begin = 0;
+      for (const Index degree : mesh.face_degrees) {
+        for (Index c = 0; c < degree; ++c) {
+          const int32_t here = steps[mesh.vertexOf(begin + c)];
+          int32_t& beyond = steps[mesh.vertexOf(begin + (c + 1) % degree)];
+          if (here == 0 || (beyond != 0 && beyond <= here + 1)) continue;
+          beyond = here + 1;
+          more = true;
+        }
+        begin += degree;
+      }
+    }
+    for (Index v = 0; v < mesh.vertex_count; ++v) {
+      const int64_t smooth = int64_t{steps[v]} * (max / 9 + 1) / 2 + random.below(noise + 1);
+      numbers[size_t{v} * components + i] = static_cast<int32_t>(std::min<int64_t>(smooth, max));
+    }
+  }
+  return numbers;
+}
+
+/// One stream per line: components, max, head, bytes, numbers, and for some the vertices' places.
+class ValueVectors {
+ public:
+  ValueVectors(const Connectivity& mesh, std::ostream& out) : mesh_(mesh), out_(out) {
+    for (Index corner = 0; corner < mesh.umbrellas.size(); ++corner) vertices_.push_back(mesh.vertexOf(corner));
+  }
+
+  void write() {
+    places_ = numbersOver(mesh_, 3, 4095, 60);
+    for (const ValueProfile profile : {ValueProfile::kFast, ValueProfile::kDefault, ValueProfile::kSmall}) {
+      write({3, 4095, profile, ValueKind::kPoints}, 60);
+      write({3, 4095, profile, ValueKind::kPoints, true}, 0);
+      write({3, (1 << 20) - 1, profile, ValueKind::kPoints, false, true}, 0);
+      write({2, (1 << 18) - 1, profile, ValueKind::kTexcoord}, 300);
+      write({2, 510, profile, ValueKind::kDirection}, 20);
+      write({2, 1022, profile, ValueKind::kLabel}, 1);
+      write({1, (1 << 27) - 1, profile, ValueKind::kPlain}, 1 << 26);
+      write({4, 255, profile, ValueKind::kPlain, true, true}, 2);
+      write({4, 255, profile, ValueKind::kPlain}, 2);
+    }
+  }
+
+ private:
+  void write(const ValueFormat& format, Index noise) {
+    const ValueGraph graph(mesh_, vertices_, mesh_.vertex_count);
+    const bool placed = format.kind == ValueKind::kTexcoord || format.kind == ValueKind::kDirection;
+    const std::vector<int32_t> numbers = numbersOver(mesh_, format.components, format.max, noise);
+    ByteWriter bytes;
+    const ValueSites sites{graph, placed ? std::span<const int32_t>(places_) : std::span<const int32_t>()};
+    if (!encodeValues(sites, format, numbers, bytes)) return;
+    out_ << format.components << ' ' << format.max << ' '
+         << static_cast<int>(format.profile) + 4 * static_cast<int>(format.kind) + 32 * format.ranked +
+                64 * format.echoes
+         << ' ' << std::hex;
+    for (const uint8_t byte : bytes.bytes()) out_ << byte / 16 << byte % 16;
+    out_ << std::dec << ' ';
+    list(numbers);
+    if (placed) list(places_);
+    out_ << '\n';
+  }
+
+  void list(std::span<const int32_t> numbers) {
+    for (size_t i = 0; i < numbers.size(); ++i) out_ << (i == 0 ? "" : ",") << numbers[i];
+    out_ << ' ';
+  }
+
+  const Connectivity& mesh_;
+  std::ostream& out_;
+  std::vector<Index> vertices_;
+  std::vector<int32_t> places_;
+};
+
+bool writeValues(const std::filesystem::path& folder, const shapes::Named& named) {
+  const Result<Encoded> encoded = encode(named.shape.mesh);
+  if (!encoded) return false;
+  const Index vertices = encoded->connectivity.vertex_count;
+  if (vertices == 0 || vertices > 64) return true;
+  std::ofstream out(folder / (named.name + ".values"));
+  ValueVectors(encoded->connectivity, out).write();
+  return out.good();
+}
+
 /// One by the encoder's own choice, and one for each profile.
 bool writeVectors(const std::filesystem::path& folder, const shapes::Named& named) {
   const auto write = [&](const char* suffix, std::optional<Profile> profile, int effort) {
@@ -47,7 +140,7 @@ bool writeVectors(const std::filesystem::path& folder, const shapes::Named& name
     return writeVector(folder, named, suffix, options);
   };
   return write("", std::nullopt, 1) && write(".paper", Profile::kPaper, 0) && write(".fast", Profile::kFast, 1) &&
-         write(".default", Profile::kDefault, 0) && write(".small", Profile::kSmall, 2);
+         write(".default", Profile::kDefault, 0) && write(".small", Profile::kSmall, 2) && writeValues(folder, named);
 }
 
 }  // namespace
