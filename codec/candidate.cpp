@@ -39,20 +39,20 @@ struct Sources {
 };
 
 std::vector<Index> expandCorners(const Topology& topology, const std::vector<Index>& start_corners) {
-  std::vector<Index> corners;
-  corners.reserve(topology.twin.size());
+  std::vector<Index> corners(topology.faces.first[topology.real_faces]);
+  Index* at = corners.data();
   for (const Index start : start_corners) {
-    Index corner = start;
-    do {
-      corners.push_back(corner);
-      corner = topology.faces.next(corner);
-    } while (corner != start);
+    const Index face = topology.faces.face[start];
+    const Index first = topology.faces.first[face], end = topology.faces.first[face + 1];
+    for (Index corner = start; corner < end; ++corner) *at++ = corner;
+    for (Index corner = first; corner < start; ++corner) *at++ = corner;
   }
   return corners;
 }
 
 Sources primalSources(const Topology& topology, WalkedCandidate& walked) {
   Sources sources{expandCorners(topology, walked.start_corners), {}, std::move(walked.umbrella_order)};
+  sources.faces.reserve(walked.start_corners.size());
   for (const Index start : walked.start_corners) sources.faces.push_back(topology.faces.face[start]);
   return sources;
 }
@@ -78,12 +78,17 @@ Index original(const std::vector<Index>& sources, Index index) { return sources.
 // Fills in the orders of faces and corners, and notes flips and strays.
 RepairNotes orderFaces(const Topology& topology, const Sources& sources, PolygonView mesh, Encoded& encoded) {
   RepairNotes notes;
+  encoded.face_order.reserve(mesh.face_degrees.size());
   for (const Index face : sources.faces) {
     encoded.face_order.push_back(original(topology.source_face, face));
     if (!topology.flipped.empty()) notes.flipped.push_back(topology.flipped[face]);
   }
   encoded.corner_order.reserve(mesh.corners.size());
-  for (const Index corner : sources.corners) encoded.corner_order.push_back(original(topology.source_corner, corner));
+  if (topology.source_corner.empty()) {
+    encoded.corner_order.insert(encoded.corner_order.end(), sources.corners.begin(), sources.corners.end());
+  } else {
+    for (const Index corner : sources.corners) encoded.corner_order.push_back(topology.source_corner[corner]);
+  }
   if (topology.strays.empty()) return notes;
   std::vector<Index> first(mesh.face_degrees.size() + 1, 0);
   for (size_t f = 0; f < mesh.face_degrees.size(); ++f) first[f + 1] = first[f] + mesh.face_degrees[f];
@@ -100,6 +105,7 @@ void orderVertices(const Topology& topology, const Sources& sources, PolygonView
                    RepairNotes& notes) {
   std::vector<Index> number(mesh.vertex_count, kNone), vertices;
   encoded.vertex_order.reserve(mesh.vertex_count);
+  vertices.reserve(sources.umbrellas.size());
   const auto meet = [&](Index vertex) {
     if (number[vertex] == kNone) {
       number[vertex] = static_cast<Index>(encoded.vertex_order.size());

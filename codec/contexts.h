@@ -82,7 +82,7 @@ struct VertexFeatures {
     const Gap &a = at(q.head), &b = at(q.current), &edge = at(q.before_tail), &next = at(b.next), &prev = at(a.prev);
     head = a.capped, current = b.capped, before = prev.capped, after = next.capped;
     head_slots = slots(a), current_slots = slots(b), before_slots = slots(prev), after_slots = slots(next);
-    const int regular = q.face.degree == 3 ? 6 : 4;
+    const int regular = q.degree == 3 ? 6 : 4;
     head_sum = sum(a, regular), current_sum = sum(b, regular);
     opposite = q.index == 0 && !kSeed ? edge.opposite_next : 15;
     opposite_head = q.missing == 1 && !kSeed ? a.opposite_own : 15;

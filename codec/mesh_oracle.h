@@ -37,26 +37,23 @@ class MeshOracle {
 
   void seed() {
     enter(plans_[next_component_++].seed);
-    corner_ = topology_.faces.prev(corner_);  // the first step() leads to the first corner
+    corner_ = corner_ == first_ ? end_ - 1 : corner_ - 1;  // the first step() leads to the first corner
   }
   void start(Index gap) {
     enter(outside_[gap]);
     step();
   }
-  void step() { corner_ = topology_.faces.next(corner_); }
+  void step() { corner_ = following(); }
   void cross(Index gap) {
     if (gap >= outside_.size()) outside_.resize(2 * gap + 64);
     outside_[gap] = topology_.twin[corner_];
     gap_at_[outside_[gap]] = gap;
   }
 
-  FaceAnswer face() const {
-    const FaceCorners& faces = topology_.faces;
-    return {faces.first[face_ + 1] - faces.first[face_], topology_.isDummy(face_)};
-  }
+  FaceAnswer face() const { return {end_ - first_, topology_.isDummy(face_)}; }
 
   VertexAnswer vertex() {
-    const Index umbrella = topology_.faces.vertex[topology_.faces.next(corner_)];
+    const Index umbrella = topology_.faces.vertex[following()];
     if (umbrella_known_[umbrella]) return {};
     umbrella_known_[umbrella] = 1;
     umbrella_order_.push_back(umbrella);
@@ -67,7 +64,7 @@ class MeshOracle {
   /// Looks for the ends of the gap on both sides of the face's slot in turn.
   SplitAnswer split(const Gaps& gaps) const {
     const FaceCorners& faces = topology_.faces;
-    Index after = faces.next(corner_), before = faces.prev(after);
+    Index after = following(), before = faces.prev(after);
     for (Index steps = 0;; ++steps) {
       if (done(topology_.twin[after])) return {gap_at_[after], steps};
       if (done(topology_.twin[before])) {
@@ -85,7 +82,12 @@ class MeshOracle {
     face_done_[face_] = 1;
     if (!topology_.isDummy(face_)) start_corners_.push_back(corner);
     corner_ = corner;
+    first_ = topology_.faces.first[face_];
+    end_ = topology_.faces.first[face_ + 1];
   }
+
+  /// The next corner of the current face.
+  Index following() const { return corner_ + 1 == end_ ? first_ : corner_ + 1; }
 
   bool done(Index corner) const { return face_done_[topology_.faces.face[corner]]; }
 
@@ -96,7 +98,7 @@ class MeshOracle {
   std::vector<Index> gap_at_;   // per corner outside the region: the gap whose leaving edge is its edge
   std::vector<Index> start_corners_, umbrella_order_;
   size_t next_component_ = 0;
-  Index face_ = 0, corner_ = 0;
+  Index face_ = 0, first_ = 0, end_ = 0, corner_ = 0;  // the current face, its corners, and the current one
 };
 
 }  // namespace tutte

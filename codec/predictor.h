@@ -76,8 +76,8 @@ class Predictor {
       return bit;
     } else {
       Slot nobody;
-      const std::array<uint32_t*, kInputs> slots{line_[i]->slot[selectors.node].word()...,
-                                                 (match ? match : &nobody)->word()};
+      std::array<uint32_t*, kInputs> slots{line_[i]->slot[selectors.node].word()..., (match ? match : &nobody)->word()};
+      for (int unused = kContexts + 1; unused < kInputs; ++unused) slots[unused] = nobody.word();
       SlotGroups groups = groupsOf(slots, std::make_index_sequence<kInputs / 8>());
       const Inputs<kInputs> inputs = inputsOf(groups, std::make_index_sequence<kInputs / 8>());
       const bool bit = kRich ? codeRich(port, selectors, inputs, match_length, value)

@@ -53,7 +53,7 @@ class Search {
   // How often a mesh is walked at most, besides the first time.
   static size_t trialsFor(int effort, size_t corners) {
     constexpr size_t kCorners[] = {0, 100'000, 4'000'000, 80'000'000};
-    constexpr size_t kMost[] = {0, 8, 100, 2000};
+    constexpr size_t kMost[] = {0, 4, 200, 2000};
     effort = std::clamp(effort, 0, 3);
     return std::min(kMost[effort], kCorners[effort] / corners);
   }
@@ -102,7 +102,7 @@ class Search {
   }
 
   void tryVariants() {
-    attempt(withTie(best_candidate_, TieRule::kNewestFirst));
+    attempt(withTie(best_candidate_, other(best_candidate_.header.tie)));
     if (best_candidate_.header.match) {
       Candidate unmatched = best_candidate_;
       unmatched.header.match = false;
@@ -113,7 +113,11 @@ class Search {
   void tryDual() {
     const Candidate dual = candidateFor(true);
     attempt(dual);
-    attempt(withTie(dual, TieRule::kNewestFirst));
+    attempt(withTie(dual, other(dual.header.tie)));
+  }
+
+  static TieRule other(TieRule tie) {
+    return tie == TieRule::kOldestFirst ? TieRule::kNewestFirst : TieRule::kOldestFirst;
   }
 
   static Candidate withTie(Candidate candidate, TieRule tie) {

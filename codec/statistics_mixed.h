@@ -33,8 +33,7 @@ struct DefaultProfile {
   using Vertex =
       ContextList<VertexContext::kPredicted, VertexContext::kHeadRing, VertexContext::kNothing, VertexContext::kEnds,
                   VertexContext::kSlots, VertexContext::kHistory, VertexContext::kSums>;
-  using Face = ContextList<FaceContext::kEnds, FaceContext::kNearAngle, FaceContext::kHistory, FaceContext::kAround,
-                           FaceContext::kEdge, FaceContext::kLeast, FaceContext::kAngles>;
+  using Face = ContextList<FaceContext::kEnds, FaceContext::kNearAngle, FaceContext::kHistory, FaceContext::kAround>;
   static constexpr bool kRich = false;
 };
 
@@ -101,7 +100,7 @@ class MixedStatistics {
 
   template <class Seed, class Port>
   Index codeVertex(Seed seed, Port& port, const VertexQuestion& question, const Gaps& gaps, Index truth) {
-    const Index face = question.face.dummy ? 1 : std::min(question.face.degree, Index{15});
+    const Index face = question.dummy ? 1 : std::min(question.degree, Index{15});
     const Index usual = usual_.of(face);
     vertices_.enter(Profile::Vertex::keys(VertexFeatures(seed, question, gaps, face, usual, history_)));
     const Index expected = match_.expected();

@@ -25,7 +25,7 @@ inline Index paperFaceContext(const FaceQuestion& question, const Gaps& gaps) {
 /// The context of a vertex's valence: the degree of its face, and whether the face's known vertices have valences
 /// below, at, or above the regular one on average. 0 to 7.
 inline Index paperVertexContext(const VertexQuestion& question) {
-  const Index degree = question.face.dummy ? 0 : question.face.degree;
+  const Index degree = question.dummy ? 0 : question.degree;
   if (degree == 5) return 1;
   if (degree != 3 && degree != 4) return 0;
   const uint64_t regular = uint64_t{question.knownVertices()} * (degree == 3 ? 6 : 4);

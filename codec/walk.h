@@ -11,71 +11,18 @@
 // the current face, and no stream can make the walk use a slot twice.
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "codec/appender.h"
+#include "codec/boundary.h"
 #include "codec/gaps.h"
 #include "codec/mesh.h"
+#include "codec/questions.h"
 #include "codec/result.h"
 
 namespace tutte {
-
-/// What is known of a face before its degree is.
-struct FaceQuestion {
-  Index gap = kNone;      ///< where it is attached; kNone for the first face of a component
-  Index far_gap = kNone;  ///< the gap at the far end of that edge
-  Index head = kNone;     ///< the first vertex of the face on the boundary
-  Index tail = kNone;     ///< the last one
-  Index known_edges = 0;  ///< edges that it shares with the region
-  bool closed = false;    ///< all its edges are known: its degree is known_edges
-};
-
-/// A face's degree. A dummy face closes a hole and is not part of the mesh.
-struct FaceAnswer {
-  Index degree = 0;
-  bool dummy = false;
-};
-
-/// What is known of a missing vertex of the current face.
-struct VertexQuestion {
-  FaceAnswer face;
-  Index head = kNone;         ///< where the face's missing vertices end; kNone in the first face of a component
-  Index current = kNone;      ///< the vertex before this one; kNone for the first vertex of a component
-  Index before_tail = kNone;  ///< the vertex before the first missing one's predecessor; kNone likewise
-  Index index = 0;            ///< missing vertices of the face that were coded before
-  Index missing = 0;          ///< vertices of the face that are still missing, this one included
-  uint64_t valence_sum = 0;   ///< sum of the valences of those that are known
-  int64_t angle = 0;          ///< sum over them of 1 - 2 / valence, in 1/65536
-
-  Index knownVertices() const { return face.degree - missing; }
-};
-
-/// A missing vertex. In the dual of a mesh with holes it may stand for a dummy face.
-struct VertexAnswer {
-  Index valence = 0;  ///< 2 or more; 0: a split
-  bool dummy = false;
-};
-
-/// A vertex that the region has already: one of its gaps, and how many of that gap's free slots remain on the side of
-/// its leaving edge.
-struct SplitAnswer {
-  Index gap = kNone;
-  Index slots_after = 0;
-};
-
-inline constexpr std::array<int32_t, 64> kFlatAngles = [] {
-  std::array<int32_t, 64> table{};
-  for (int i = 1; i < 64; ++i) table[i] = 65536 - 131072 / i;
-  return table;
-}();
-
-/// The angle of a regular polygon with `sides` sides, as a fraction of a half turn in 1/65536: 1 - 2 / sides.
-inline int32_t flatAngle(Index sides) {
-  return sides < kFlatAngles.size() ? kFlatAngles[sides] : 65536 - static_cast<int32_t>(131072 / sides);
-}
 
 /// Runs a script to a mesh. A Script offers
 ///   bool component()                                is there another component?
@@ -90,17 +37,15 @@ inline int32_t flatAngle(Index sides) {
 ///   void step()            on to the next corner of the face
 ///   void cross(Index gap)  the gap's leaving edge becomes the edge from the next corner back to this one
 template <class Script>
-class Walk {
+class Walk : public Boundary<Script> {
  public:
   /// `least_degree`: 3, or 2 for a dual, where a valence of 2 is a degree. `expected_corners`: room that is reserved
   /// at once; there may be more or less.
   Walk(Script& script, TieRule tie, Index least_degree, const Limits& limits, size_t expected_corners)
-      : script_(script),
-        gaps_(tie),
+      : Base(script, tie, expected_corners),
         least_degree_(least_degree),
         limits_(limits),
-        degrees_(mesh_.face_degrees, expected_corners / 3),
-        corners_(mesh_, expected_corners) {}
+        degrees_(mesh_.face_degrees, expected_corners / 3) {}
   Walk(const Walk&) = delete;
   Walk& operator=(const Walk&) = delete;
 
@@ -109,11 +54,11 @@ class Walk {
     Error error = Error::kNone;
     while (error == Error::kNone && script_.component()) {
       error = seed();
-      while (error == Error::kNone && !finished()) error = attach();
+      while (error == Error::kNone && !Base::finished()) error = attach();
     }
     degrees_.finish();
     corners_.finish();
-    on_boundary_.resize(umbrellas_);
+    Base::on_boundary_.resize(umbrellas_);
     mesh_.vertex_count = mesh_.umbrella_count = static_cast<Index>(umbrellas_);
     return error;
   }
@@ -124,32 +69,12 @@ class Walk {
   /// The umbrellas that stand for dummy faces.
   const std::vector<Index>& dummyUmbrellas() const { return dummy_umbrellas_; }
 
-  /// Per umbrella: 1 when a dummy face touches it.
-  const std::vector<uint8_t>& onBoundary() const { return on_boundary_; }
-
  private:
-  // The face that is being attached, while it is. Always a local variable whose address nobody outside keeps, so that
-  // the inner loop has its fields in registers.
-  struct Face {
-    FaceAnswer answer;
-    Index start = kNone, second = kNone;  // where it is attached
-    Index head = kNone, tail = kNone;     // where its part on the boundary ends
-    Index edges = 0;                      // known ones
-    bool closed = false;                  // they are all
-    Index missing = 0;                    // vertices
-    Index found = 0;                      // missing vertices that were told
-    Index current = kNone;                // the vertex before the next missing one
-    Index before_tail = kNone;
-    Index stretch = kNone;        // where the face's stretch of the boundary begins, a split's rest if there was one
-    uint16_t before_current = 0;  // valence, up to 14, of the vertex before the current one in the face
-    bool is_new = false;          // the current vertex's leaving edge belongs to the face
-    uint64_t valence_sum = 0;
-    int64_t angle = 0;
-    Index first_corner = 0, corner = 0;  // of the face, and the next one
-    Error error = Error::kNone;
-
-    VertexQuestion question() const { return {answer, head, current, before_tail, found, missing, valence_sum, angle}; }
-  };
+  using Base = Boundary<Script>;
+  using Face = typename Base::Face;
+  using Base::become, Base::closeBoundary, Base::corners_, Base::emit, Base::emitKnown, Base::gaps_, Base::gather,
+      Base::know, Base::leave, Base::mesh_, Base::pairLast, Base::pinched_, Base::requeue, Base::script_, Base::take,
+      Base::umbrellas_, Base::use;
 
   // The first face of a component. All its vertices are new.
   Error seed() {
@@ -172,71 +97,25 @@ class Walk {
     return Error::kNone;
   }
 
-  // No boundary is left.
-  bool finished() { return last_.head == kNone && gaps_.lowestList() == Gaps::kLists; }
-
   // One more face.
   Error attach() {
     Face face;
-    if (!choose(face)) return Error::kMalformed;
+    if (!Base::choose(face)) return Error::kMalformed;
     const Index start = face.start;
     script_.start(start);
     face.edges = 1;
     use(gaps_[start], face);
     use(gaps_[face.second], face);
-    if (!reachOut(face)) return Error::kMalformed;
+    if (!Base::reachOut(face)) return Error::kMalformed;
     face.answer = script_.face({start, face.second, face.head, face.tail, face.edges, face.closed}, gaps_);
     if (!open(face)) return face.error;
     const Index stop = face.closed ? start : face.tail;
     emitKnown(gaps_[start], face);
     for (Index gap = face.second; gap != stop; gap = gaps_[gap].next) emitKnown(gaps_[gap], face);
     if (!face.closed && !fill(face)) return face.error;
-    release(face, stop);
+    Base::release(face, stop);
     corners_.setSize(face.corner);
     return Error::kNone;
-  }
-
-  // Where the face is attached: mostly where the last one ended, and then two of its gaps need not be queued at all.
-  [[gnu::always_inline]] bool choose(Face& face) {
-    const Left left = last_;
-    last_.head = kNone;
-    const Index list = gaps_.lowestList();
-    const bool go_on = left.head != kNone && gaps_.comesFirst(left.list, list);
-    if (go_on) {
-      face.start = left.head;
-      face.second = gaps_[left.head].next;
-      for (Index gap = left.tail; gap != face.second; gap = gaps_[gap].prev) gaps_.enqueue(gap);
-    } else {
-      if (left.head != kNone) requeue(left.tail, left.head);
-      face.start = gaps_.pop(gaps_.lowestList());
-      face.second = gaps_[face.start].next;
-      if (!gaps_[face.second].queued) return false;
-      gaps_.dequeue(face.second);
-    }
-    face.head = face.start;
-    face.tail = face.second;
-    return true;
-  }
-
-  // Follows the boundary both ways while the face uses up gaps.
-  [[gnu::always_inline]] bool reachOut(Face& face) {
-    while (gaps_[face.tail].free_slots == 0) {
-      ++face.edges;
-      const Index next = gaps_[face.tail].next;
-      if (next == face.start) {
-        face.closed = true;
-        return gaps_[next].free_slots == 0;
-      }
-      if (!take(next, face)) return false;
-      face.tail = next;
-      script_.step();
-    }
-    while (gaps_[face.head].free_slots == 0) {
-      ++face.edges;
-      face.head = gaps_[face.head].prev;
-      if (!take(face.head, face)) return false;
-    }
-    return true;
   }
 
   // The rest of a face that is not closed: the missing vertices from its tail round to its head.
@@ -264,18 +143,6 @@ class Walk {
     if (splits_ != splits && !finishSplits(face)) return false;
     leave(face.stretch, face.head, face.answer);
     return true;
-  }
-
-  // The gaps that the face used up. `stop`: where those after the start end.
-  [[gnu::always_inline]] void release(const Face& face, Index stop) {
-    if (face.start != face.head || face.closed) gaps_.release(face.start);
-    for (Index gap = face.second; gap != stop;) {
-      const Index next = gaps_[gap].next;
-      gaps_.release(gap);
-      gap = next;
-    }
-    if (face.start == face.head) return;
-    for (Index gap = gaps_[face.start].prev; gap != face.head; gap = gaps_[gap].prev) gaps_.release(gap);
   }
 
   // A vertex that nobody knew; becomes the current one.
@@ -356,54 +223,6 @@ class Walk {
     return true;
   }
 
-  [[gnu::always_inline]] void become(Index gap, Face& face, bool is_new) {
-    script_.step();
-    const Gap& record = gaps_[gap];
-    if (Script::kGathers && face.current != kNone) {
-      Gap& before = gaps_[face.current];
-      if (face.is_new) before.opposite_own = record.capped;
-      face.before_current = before.capped;
-    }
-    face.is_new = is_new;
-    face.current = gap;
-    corners_.makeRoom(face.corner + face.edges + 2);
-    emit(record, face);
-  }
-
-  [[gnu::always_inline]] static void know(const Gap& gap, Face& face) {
-    face.valence_sum += gap.valence;
-    face.angle += gap.flat;
-  }
-
-  // Uses a slot of a gap for the current face.
-  [[gnu::always_inline]] bool take(Index gap, Face& face) {
-    if (!gaps_[gap].queued) return false;
-    gaps_.dequeue(gap);
-    use(gaps_[gap], face);
-    return true;
-  }
-
-  [[gnu::always_inline]] static void use(Gap& gap, Face& face) {
-    --gap.free_slots;
-    know(gap, face);
-  }
-
-  // The boundary now runs from `gap` to `next`; the face lies behind, in which next has the corner `next_corner`.
-  [[gnu::always_inline]] void closeBoundary(Index gap, Index next, Index next_corner, const Face& face) {
-    Gap& record = gaps_[gap];
-    Gap& other = gaps_[next];
-    record.next = next;
-    other.prev = gap;
-    record.behind = face.answer.dummy ? kNone : next_corner;
-    record.degree_behind = face.answer.dummy ? 0 : face.answer.degree;
-    if (Script::kGathers) {
-      record.opposite_next = face.before_current;
-      record.met += (uint64_t{1} << 32) + other.valence;
-      other.met += (uint64_t{1} << 32) + record.valence;
-    }
-    script_.cross(gap);
-  }
-
   // Checks the answer, and begins the face.
   [[gnu::always_inline]] bool open(Face& face) {
     const FaceAnswer& answer = face.answer;
@@ -423,86 +242,17 @@ class Walk {
     return true;
   }
 
-  [[gnu::always_inline]] void emit(const Gap& gap, Face& face) {
-    if (face.answer.dummy) {
-      touchBoundary(gap.umbrella);
-    } else {
-      corners_.umbrellas()[face.corner++] = gap.umbrella;
-    }
-  }
-
-  [[gnu::noinline]] void touchBoundary(Index umbrella) {
-    if (umbrella >= on_boundary_.size()) on_boundary_.resize(umbrellas_);
-    pinched_ |= on_boundary_[umbrella];
-    on_boundary_[umbrella] = 1;
-  }
-
-  [[gnu::always_inline]] void emitKnown(const Gap& gap, Face& face) {
-    emit(gap, face);
-    pairLast(gap.behind, face);
-  }
-
-  // The last corner's edge is the other side of the edge of `corner`.
-  [[gnu::always_inline]] void pairLast(Index corner, const Face& face) {
-    if (face.answer.dummy || corner == kNone) return;
-    corners_.twins()[face.corner - 1] = corner;
-    corners_.twins()[corner] = face.corner - 1;
-  }
-
-  // Ends a face that leaves the boundary from `tail` back to `head`.
-  [[gnu::always_inline]] void leave(Index tail, Index head, const FaceAnswer& face) {
-    const Index others = gather(tail, head, face), list = Gaps::listOf(gaps_[head].free_slots);
-    last_ = {tail, head, list};
-    if (gaps_.comesFirst(list, others)) return;
-    requeue(tail, head);
-    last_.head = kNone;
-  }
-
-  // Notes the face in the gaps from `tail` back to `head`. Returns the lowest list of all but head.
-  [[gnu::always_inline]] Index gather(Index tail, Index head, const FaceAnswer& face) {
-    const uint32_t angle = face.dummy ? 0 : static_cast<uint32_t>(flatAngle(face.degree));
-    Index least = Gaps::kLists;
-    for (Index gap = tail;; gap = gaps_[gap].prev) {
-      Gap& record = gaps_[gap];
-      if (Script::kGathers) record.angle += angle;
-      if (face.dummy) record.dummy = true;
-      if (gap == head) return least;
-      least = std::min(least, Gaps::listOf(record.free_slots));
-    }
-  }
-
-  [[gnu::always_inline]] void requeue(Index tail, Index head) {
-    for (Index gap = tail;; gap = gaps_[gap].prev) {
-      gaps_.enqueue(gap);
-      if (gap == head) return;
-    }
-  }
-
-  // What the last face left of the boundary, when that is not queued yet.
-  struct Left {
-    Index tail = kNone, head = kNone;
-    Index list = 0;  // which the head would join, and come before all others
-  };
-
   // A stretch of the boundary along the current face, from a split back.
   struct Segment {
     Index tail, head;
   };
 
-  Script& script_;
-  Gaps gaps_;
   Index least_degree_;
   Limits limits_;
-  Connectivity mesh_;
-  Appender degrees_;                  // of the mesh
-  CornerAppender corners_;            // likewise
-  std::vector<uint8_t> on_boundary_;  // as far as a dummy face was met
+  Appender degrees_;  // of the mesh's faces
   std::vector<Index> dummy_umbrellas_;
-  std::vector<Index> last_face_;  // per umbrella, as far as there were splits: the last face with splits, plus 1
-  Left last_;
+  std::vector<Index> last_face_;   // per umbrella, as far as there were splits: the last face with splits, plus 1
   std::vector<Segment> segments_;  // of the current face
-  size_t umbrellas_ = 0;
-  bool pinched_ = false;  // two dummy faces, or one twice, touch an umbrella: never in a valid stream
   Index splits_ = 0;
 };
 

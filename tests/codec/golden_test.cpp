@@ -30,15 +30,15 @@ const std::map<std::string, std::string>& goldenBytes() {
       {"book_3", "c253484b13019f"},
       {"orientation_conflict", "405701805ad7c0"},
       {"moebius_5", "4413010d4538d7d94775da"},
-      {"klein_bottle", "441302ba2e015c5b8bbb6cee759ab80d19882f517efcb4b8"},
+      {"klein_bottle", "441302bd2f0198a2abaaf3ab54340fabcd01c270cc0d"},
       {"duplicate_faces", "431301c0584da77c"},
-      {"repeated_vertex", "e057035f31343ff2b1f6caae66fd4bace11db7b3326aac74"},
+      {"repeated_vertex", "e0170483666e4059848907e01cfa1eb2bfd46b113c48d7cf0ace26"},
       {"small_faces", "4253236d195d218c0cc4"},
       {"isolated_vertices", "5413406de7"},
-      {"double_edges", "405701654f9b225fe0"},
-      {"self_glued_face", "4253686ee32b8bd820"},
-      {"sponge_1", "141323a621d6b1c7050e97aaad49b9f35fd38bd5c73cea"},
-      {"perforated_grid", "24130a027c59cc283d11e77cd2250a4e632fb3098e40"},
+      {"double_edges", "401702c3802daef65020"},
+      {"self_glued_face", "401701c35b689249468d76"},
+      {"sponge_1", "14134ddaa7f7da296e101ef0f39f3cb22a93a8b0759305dc"},
+      {"perforated_grid", "24130b027b4f92ae5edbbee33a105983fc446af935a6"},
       {"polygon_1000", "001705fffe6645a05af8"}};
   return bytes;
 }

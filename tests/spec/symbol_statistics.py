@@ -148,13 +148,13 @@ FACE = {
 }
 
 DEFAULT_VERTEX = ['predicted', 'head ring', 'nothing', 'ends', 'slots', 'history', 'sums']
-DEFAULT_FACE = ['ends', 'near angle', 'history', 'around', 'edge', 'least', 'angles']
+DEFAULT_FACE = ['ends', 'near angle', 'history', 'around']
 PROFILES = {
     1: (['predicted'], ['ends'], False),
     2: (DEFAULT_VERTEX, DEFAULT_FACE, False),
     3: (DEFAULT_VERTEX + ['predicted sums', 'beyond', 'current ring', 'degrees', 'ends and slots', 'degree after',
                           'sums and slots', 'predicted slots'],
-        DEFAULT_FACE + ['degrees', 'behind', 'sums', 'slots', 'both', 'edge and degrees', 'dummies', 'nothing'], True),
+        DEFAULT_FACE + ['edge', 'least', 'angles', 'degrees', 'behind', 'sums', 'slots', 'both', 'edge and degrees', 'dummies', 'nothing'], True),
 }
 
 

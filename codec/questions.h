@@ -1,0 +1,66 @@
+#pragma once
+// What the walk asks, and what it is told.
+
+#include <array>
+#include <cstdint>
+
+#include "codec/mesh.h"
+
+namespace tutte {
+
+/// What is known of a face before its degree is.
+struct FaceQuestion {
+  Index gap = kNone;      ///< where it is attached; kNone for the first face of a component
+  Index far_gap = kNone;  ///< the gap at the far end of that edge
+  Index head = kNone;     ///< the first vertex of the face on the boundary
+  Index tail = kNone;     ///< the last one
+  Index known_edges = 0;  ///< edges that it shares with the region
+  bool closed = false;    ///< all its edges are known: its degree is known_edges
+};
+
+/// A face's degree. A dummy face closes a hole and is not part of the mesh.
+struct FaceAnswer {
+  Index degree = 0;
+  bool dummy = false;
+};
+
+/// What is known of a missing vertex of the current face.
+struct VertexQuestion {
+  Index degree = 0;           ///< of the face
+  bool dummy = false;         ///< it is a dummy
+  Index head = kNone;         ///< where the face's missing vertices end; kNone in the first face of a component
+  Index current = kNone;      ///< the vertex before this one; kNone for the first vertex of a component
+  Index before_tail = kNone;  ///< the vertex before the first missing one's predecessor; kNone likewise
+  Index index = 0;            ///< missing vertices of the face that were coded before
+  Index missing = 0;          ///< vertices of the face that are still missing, this one included
+  uint64_t valence_sum = 0;   ///< sum of the valences of those that are known
+  int64_t angle = 0;          ///< sum over them of 1 - 2 / valence, in 1/65536
+
+  Index knownVertices() const { return degree - missing; }
+};
+
+/// A missing vertex. In the dual of a mesh with holes it may stand for a dummy face.
+struct VertexAnswer {
+  Index valence = 0;  ///< 2 or more; 0: a split
+  bool dummy = false;
+};
+
+/// A vertex that the region has already: one of its gaps, and how many of that gap's free slots remain on the side of
+/// its leaving edge.
+struct SplitAnswer {
+  Index gap = kNone;
+  Index slots_after = 0;
+};
+
+inline constexpr std::array<int32_t, 64> kFlatAngles = [] {
+  std::array<int32_t, 64> table{};
+  for (int i = 1; i < 64; ++i) table[i] = 65536 - 131072 / i;
+  return table;
+}();
+
+/// The angle of a regular polygon with `sides` sides, as a fraction of a half turn in 1/65536: 1 - 2 / sides.
+inline int32_t flatAngle(Index sides) {
+  return sides < kFlatAngles.size() ? kFlatAngles[sides] : 65536 - static_cast<int32_t>(131072 / sides);
+}
+
+}  // namespace tutte
