@@ -22,7 +22,7 @@ int32_t largest(int bits) { return static_cast<int32_t>((1u << bits) - 1); }
 PlaneKind kindOf(const Attribute& attribute, const AttributeCoding& coding, size_t index) {
   const AttributeName name = parseName(attribute.name);
   const int components = attribute.components;
-  if (name.is_target) return PlaneKind::kSmooth;
+  if (name.is_target || coding.kind == CodingKind::kPalette) return PlaneKind::kSmooth;
   if (name.semantic == Semantic::kPosition && index == 0 && components == 3 && coding.bits <= kMaxParentBits) {
     return PlaneKind::kPosition;
   }
@@ -30,7 +30,7 @@ PlaneKind kindOf(const Attribute& attribute, const AttributeCoding& coding, size
     return PlaneKind::kTexcoord;
   }
   const bool label =
-      coding.kind != CodingKind::kQuantised &&
+      (coding.kind == CodingKind::kWords || coding.kind == CodingKind::kFractions) &&
       (name.semantic == Semantic::kCustom || name.semantic == Semantic::kJoints || name.semantic == Semantic::kWeights);
   return label ? PlaneKind::kLabel : PlaneKind::kSmooth;
 }
@@ -126,6 +126,38 @@ void fromFractions(const Plane& in, const AttributeCoding& coding, Attribute& ou
   }
 }
 
+void toPalette(const Attribute& attribute, const AttributeCoding& coding, Plane& out) {
+  forEachComponent(attribute, [&](size_t i, const uint8_t* data) {
+    const std::vector<uint32_t>& words = coding.palette[i % attribute.components];
+    const auto at = std::lower_bound(words.begin(), words.end(), wordOf(data, ComponentType::kFloat));
+    out.values[i] = static_cast<int32_t>(at - words.begin());
+  });
+}
+
+bool fromPalette(const Plane& in, const AttributeCoding& coding, Attribute& out) {
+  for (size_t i = 0; i < in.values.size(); ++i) {
+    const std::vector<uint32_t>& words = coding.palette[i % out.components];
+    if (static_cast<size_t>(in.values[i]) >= words.size()) return false;
+    storeWord(&out.data[4 * i], ComponentType::kFloat, words[in.values[i]]);
+  }
+  return true;
+}
+
+void toGrid(const Attribute& attribute, const AttributeCoding& coding, Plane& out) {
+  forEachComponent(attribute, [&](size_t i, const uint8_t* data) {
+    const size_t c = i % attribute.components;
+    out.values[i] = static_cast<int32_t>(gridPoint(loadFloat(data), coding.origin[c], coding.step) - coding.first[c]);
+  });
+}
+
+void fromGrid(const Plane& in, const AttributeCoding& coding, Attribute& out) {
+  for (size_t i = 0; i < in.values.size(); ++i) {
+    const size_t c = i % out.components;
+    const double offset = (double{in.values[i]} + coding.first[c]) * coding.step;
+    storeFloat(&out.data[4 * i], static_cast<float>(double{coding.origin[c]} + offset));
+  }
+}
+
 bool inRange(const Plane& plane, Index wedge_count) {
   return plane.values.size() == size_t{wedge_count} * plane.components &&
          std::all_of(plane.values.begin(), plane.values.end(),
@@ -137,7 +169,8 @@ bool inRange(const Plane& plane, Index wedge_count) {
 std::vector<Plane> planesOf(const Attribute& attribute, const AttributeCoding& coding, size_t index) {
   const int components = attribute.components;
   switch (coding.kind) {
-    case CodingKind::kConstant: return {};
+    case CodingKind::kConstant:
+    case CodingKind::kNumerals: return {};
     case CodingKind::kOctahedral: return {plane(PlaneKind::kNormal, index, 2, 2 * octahedronCentre(coding.bits))};
     case CodingKind::kOctahedralSigned: {
       std::vector<Plane> planes{plane(PlaneKind::kDirection, index, 2, 2 * octahedronCentre(coding.bits))};
@@ -154,8 +187,11 @@ void splitValues(const Attribute& attribute, const AttributeCoding& coding, std:
   const size_t wedges = attribute.data.size() / attribute.stride();
   for (Plane& plane : planes) plane.values.assign(wedges * plane.components, 0);
   switch (coding.kind) {
-    case CodingKind::kConstant: return;
+    case CodingKind::kConstant:
+    case CodingKind::kNumerals: return;
     case CodingKind::kQuantised: return quantise(attribute, coding, planes[0]);
+    case CodingKind::kPalette: return toPalette(attribute, coding, planes[0]);
+    case CodingKind::kGrid: return toGrid(attribute, coding, planes[0]);
     case CodingKind::kOctahedral:
     case CodingKind::kOctahedralSigned: return toOctahedron(attribute, coding, planes);
     case CodingKind::kWords:
@@ -168,17 +204,21 @@ bool joinValues(std::span<const Plane> planes, const AttributeCoding& coding, In
   for (const Plane& plane : planes) {
     if (!inRange(plane, wedge_count)) return false;
   }
+  if (coding.kind == CodingKind::kNumerals) return true;
   attribute.data.resize(size_t{wedge_count} * attribute.stride());
   switch (coding.kind) {
     case CodingKind::kConstant:
       for (size_t i = 0; i < attribute.data.size(); ++i) attribute.data[i] = coding.constant[i % attribute.stride()];
       return true;
     case CodingKind::kQuantised: return dequantise(planes[0], coding, attribute), true;
+    case CodingKind::kPalette: return fromPalette(planes[0], coding, attribute);
+    case CodingKind::kGrid: return fromGrid(planes[0], coding, attribute), true;
     case CodingKind::kOctahedral:
     case CodingKind::kOctahedralSigned: return fromOctahedron(planes, coding, attribute), true;
     case CodingKind::kWords:
     case CodingKind::kSplitWords: return fromWords(planes, coding, attribute);
     case CodingKind::kFractions: return fromFractions(planes[0], coding, attribute), true;
+    case CodingKind::kNumerals: break;
   }
   return false;
 }

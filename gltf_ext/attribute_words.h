@@ -2,6 +2,7 @@
 // Single values as words, whatever their type.
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -34,6 +35,11 @@ inline uint32_t wordOf(const uint8_t* data, ComponentType type) {
   const uint32_t bits = loadBytes(data, sizeOf(type));
   if (type == ComponentType::kFloat) return bits >> 31 ? ~bits : bits | 0x80000000u;
   return isSigned(type) ? bits ^ 1u << (8 * sizeOf(type) - 1) : bits;
+}
+
+/// The number of the grid's point that is nearest to a value: origin + number * step.
+inline double gridPoint(float value, float origin, float step) {
+  return std::floor((double{value} - origin) / step + 0.5);
 }
 
 /// The reverse of wordOf(). `word` must not exceed largestWord(type).

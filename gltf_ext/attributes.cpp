@@ -6,6 +6,7 @@
 #include "gltf_ext/attribute_coding.h"
 #include "gltf_ext/draco_planes.h"
 #include "gltf_ext/guard.h"
+#include "gltf_ext/numeral_attributes.h"
 #include "gltf_ext/value_planes.h"
 
 namespace tutte {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr uint8_t kDracoCoder = 0, kValueCoder = 1;
 constexpr uint32_t kMaxAttributes = 4096;
-constexpr int kMaxBits = 24;
 
 // The format byte: component type, components less one, normalized.
 constexpr ComponentType kTypes[] = {ComponentType::kInt8,   ComponentType::kUint8,  ComponentType::kInt16,
@@ -26,8 +26,9 @@ struct Head {
   uint8_t coder = kDracoCoder;
   std::vector<Attribute> attributes;  ///< without data
   std::vector<AttributeCoding> codings;
-  std::vector<uint32_t> sizes;  ///< of the attributes' descriptions, in bytes
-  std::vector<Plane> planes;    ///< of all attributes, without values
+  std::vector<uint32_t> sizes;          ///< of the attributes' descriptions, in bytes
+  std::vector<uint32_t> numeral_sizes;  ///< once decoded: what attributes without planes took, else 0
+  std::vector<Plane> planes;            ///< of all attributes, without values
 
   std::span<Plane> planesOf(size_t attribute) {
     const auto [first, last] = std::ranges::equal_range(planes, attribute, {}, &Plane::attribute);
@@ -151,9 +152,35 @@ Outcome<Stream> encodeStream(const AttributeTopology& topology, std::span<const 
   return own;
 }
 
-bool decodeStream(const AttributeTopology& topology, std::span<const uint8_t> bytes, Head& head) {
+bool decodeStream(const AttributeTopology& topology, ByteReader& in, Head& head) {
+  if (!decodeNumeralAttributes(topology, head.codings, in, head.attributes, head.numeral_sizes)) return false;
+  const std::span<const uint8_t> bytes = in.take(in.remaining());
   return head.coder == kDracoCoder ? decodePlanes(topology, bytes, head.planes)
                                    : decodeValuePlanes(topology, bytes, head.planes);
+}
+
+uint32_t headBytes(const Attribute& attribute, const AttributeCoding& coding) {
+  ByteWriter out;
+  writeCoding(coding, attribute, out);
+  return static_cast<uint32_t>(out.bytes().size());
+}
+
+/// What chooseCoding() says, or a palette, where that takes fewer bytes than numerals.
+Outcome<AttributeCoding> smallestCoding(const AttributeTopology& topology, const Attribute& attribute, size_t index,
+                                        const PackOptions& options) {
+  AttributeCoding chosen = chooseCoding(attribute, options);
+  if (chosen.kind != CodingKind::kNumerals) return chosen;
+  std::optional<AttributeCoding> palette = paletteCoding(attribute);
+  if (!palette) return chosen;
+  const auto numerals = encodeNumeralAttribute(topology, attribute, index, chosen.numerals);
+  if (!numerals) return numerals.error();
+  std::vector<Plane> planes = planesOf(attribute, *palette, index);
+  splitValues(attribute, *palette, planes);
+  const auto ranks = encodeValuePlanes(
+      topology, planes, valueProfile(options.connectivity.profile, topology.connectivity.umbrellas.size()));
+  if (!ranks) return ranks.error();
+  const bool fewer = ranks->size() + headBytes(attribute, *palette) < numerals->size() + headBytes(attribute, chosen);
+  return fewer ? *std::move(palette) : chosen;
 }
 
 Outcome<std::vector<uint8_t>> encode(const AttributeTopology& topology, std::span<const Attribute> attributes,
@@ -163,12 +190,16 @@ Outcome<std::vector<uint8_t>> encode(const AttributeTopology& topology, std::spa
   out.varint(static_cast<uint32_t>(attributes.size()));
   for (const Attribute& attribute : attributes) {
     const size_t index = head.codings.size();
-    head.codings.push_back(chooseCoding(attribute, options));
+    auto coding = smallestCoding(topology, attribute, index, options);
+    if (!coding) return coding.error();
+    head.codings.push_back(*std::move(coding));
     writeAttribute(attribute, head.codings[index], out);
     std::vector<Plane> planes = planesOf(attribute, head.codings[index], index);
     splitValues(attribute, head.codings[index], planes);
     std::ranges::move(planes, std::back_inserter(head.planes));
   }
+  const auto numerals = encodeNumeralAttributes(topology, attributes, head.codings, out);
+  if (!numerals) return numerals.error();
   auto stream = encodeStream(topology, head.planes, options);
   if (!stream) return stream.error();
   out.append(stream->bytes);
@@ -181,7 +212,7 @@ Outcome<std::vector<Attribute>> decode(const AttributeTopology& topology, std::s
   ByteReader in(bytes);
   auto head = readHead(in);
   if (!head) return head.error();
-  if (!decodeStream(topology, in.take(in.remaining()), *head)) return damaged("the attribute stream is damaged");
+  if (!decodeStream(topology, in, *head)) return damaged("the attribute stream is damaged");
   for (size_t i = 0; i < head->attributes.size(); ++i) {
     const std::span<Plane> planes = head->planesOf(i);
     if (!joinValues(planes, head->codings[i], topology.wedge_count, head->attributes[i])) {
@@ -196,10 +227,11 @@ Outcome<std::vector<AttributeSize>> sizesOf(const AttributeTopology& topology, s
   ByteReader in(bytes);
   auto head = readHead(in);
   if (!head) return head.error();
-  if (!decodeStream(topology, in.take(in.remaining()), *head)) return damaged("the attribute stream is damaged");
+  if (!decodeStream(topology, in, *head)) return damaged("the attribute stream is damaged");
   std::vector<AttributeSize> sizes;
   for (size_t i = 0; i < head->attributes.size(); ++i) {
     sizes.push_back({head->attributes[i].name, head->sizes[i], {}});
+    if (head->numeral_sizes[i] > 0) sizes.back().plane_bytes.push_back(head->numeral_sizes[i]);
     for (const Plane& plane : head->planesOf(i)) sizes.back().plane_bytes.push_back(plane.coded_bytes);
   }
   return sizes;

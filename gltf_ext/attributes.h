@@ -43,7 +43,7 @@ Outcome<std::vector<Attribute>> decodeAttributes(const AttributeTopology& topolo
 struct AttributeSize {
   std::string name;
   uint32_t head_bytes = 0;            ///< its description
-  std::vector<uint32_t> plane_bytes;  ///< its values, one number per plane (see planesOf())
+  std::vector<uint32_t> plane_bytes;  ///< its values, one number per plane (see planesOf()); numerals: one
 
   uint32_t bytes() const;
 };

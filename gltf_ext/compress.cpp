@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "gltf_ext/accessors.h"
 #include "gltf_ext/buffers.h"
@@ -73,8 +74,10 @@ class Compressor {
     if (usesUnmarkedFans(asset_.json)) markFans(asset_.json);
     const auto plans = planPayloads(asset_, Purpose::kCompress, report_.warnings);
     if (!plans) return plans.error();
-    for (const PayloadPlan& plan : *plans) {
-      const auto done = compressPayload(plan);
+    const auto grids = planGrids(boxesOf(*plans), options_.pack, options_.grid);
+    if (!grids) return grids.error();
+    for (size_t i = 0; i < plans->size(); ++i) {
+      const auto done = compressPayload((*plans)[i], (*grids)[i]);
       if (!done && done.error().kind != FailureKind::kUnsupported) return done;
       if (!done) report_.warnings.push_back(done.error());
     }
@@ -95,7 +98,26 @@ class Compressor {
     uint64_t index_bytes = 1;
   };
 
-  Outcome<Done> compressPayload(const PayloadPlan& plan) {
+  /// Payloads of one mesh belong together, and so do those that another one joins.
+  std::vector<PositionBox> boxesOf(const std::vector<PayloadPlan>& plans) const {
+    std::vector<size_t> parent(countOf(asset_.json, "meshes"));
+    std::iota(parent.begin(), parent.end(), size_t{0});
+    const auto find = [&](size_t mesh) {
+      while (parent[mesh] != mesh) mesh = parent[mesh] = parent[parent[mesh]];
+      return mesh;
+    };
+    for (const PayloadPlan& plan : plans) {
+      for (const PrimitivePlace& place : plan.primitives) parent[find(place.mesh)] = find(plan.primitives[0].mesh);
+    }
+    std::vector<PositionBox> boxes;
+    for (const PayloadPlan& plan : plans) {
+      const auto positions = readAttribute(plan.attributes[0]);
+      boxes.push_back(positions ? boxOf(*positions, find(plan.primitives[0].mesh)) : PositionBox{});
+    }
+    return boxes;
+  }
+
+  Outcome<Done> compressPayload(const PayloadPlan& plan, const std::optional<PositionGrid>& grid) {
     auto groups = readGroups(plan);
     if (!groups) return groups.error();
     if (groups->faces.empty()) return Done{};
@@ -103,7 +125,9 @@ class Compressor {
     if (!attributes) return attributes.error();
     const PolygonMesh mesh =
         weldMesh(std::move(groups->faces), *std::move(attributes), static_cast<Index>(plan.wedge_count));
-    auto packed = pack(mesh, options_.pack);
+    PackOptions pack_options = options_.pack;
+    pack_options.grid = grid;
+    auto packed = pack(mesh, pack_options);
     if (!packed) {
       report_.warnings.push_back(at(plan, packed.error()));
       return Done{};
@@ -186,17 +210,23 @@ class Compressor {
     }
   }
 
-  Outcome<std::vector<Attribute>> readAttributes(const PayloadPlan& plan) {
+  Outcome<std::vector<Attribute>> readAttributes(const PayloadPlan& plan) const {
     std::vector<Attribute> attributes;
     for (const PlannedAttribute& planned : plan.attributes) {
-      const auto shape = accessorShape(asset_.json, planned.accessor);
-      if (!shape) return shape.error();
-      auto data = readAccessor(asset_, planned.accessor);
-      if (!data) return data.error();
-      attributes.push_back(
-          {planned.name, static_cast<uint8_t>(shape->components), shape->type, shape->normalized, *std::move(data)});
+      auto attribute = readAttribute(planned);
+      if (!attribute) return attribute.error();
+      attributes.push_back(*std::move(attribute));
     }
     return attributes;
+  }
+
+  Outcome<Attribute> readAttribute(const PlannedAttribute& planned) const {
+    const auto shape = accessorShape(asset_.json, planned.accessor);
+    if (!shape) return shape.error();
+    auto data = readAccessor(asset_, planned.accessor);
+    if (!data) return data.error();
+    return Attribute{planned.name, static_cast<uint8_t>(shape->components), shape->type, shape->normalized,
+                     *std::move(data)};
   }
 
   void addReport(const PayloadPlan& plan, const PolygonMesh& mesh, Packed packed) {

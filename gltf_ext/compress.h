@@ -7,6 +7,7 @@
 
 #include "gltf_ext/asset.h"
 #include "gltf_ext/failure.h"
+#include "gltf_ext/grid_plan.h"
 #include "gltf_ext/pack.h"
 
 namespace tutte {
@@ -22,7 +23,8 @@ enum class PolygonOutput {
 };
 
 struct CompressOptions {
-  PackOptions pack;
+  PackOptions pack;                   ///< its `grid` is set by `grid` below
+  GridScope grid = GridScope::kFile;  ///< whose positions are quantised alike
   PolygonOutput polygons = PolygonOutput::kAuto;
   bool fallback = false;             ///< keep the decoded bytes too, so that loaders without the extension can read it
   std::set<std::string> attributes;  ///< keep only these (POSITION always); empty: keep all

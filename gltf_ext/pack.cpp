@@ -229,6 +229,14 @@ class Packer {
 
 }  // namespace
 
+PackOptions withoutLoss(PackOptions options) {
+  options.position_bits = options.normal_bits = options.texcoord_bits = 0;
+  options.color_bits = options.generic_bits = 0;
+  options.errors = {};
+  options.grid.reset();
+  return options;
+}
+
 Outcome<Packed> pack(const PolygonMesh& mesh, const PackOptions& options) {
   if (Outcome<Done> valid = checkMesh(mesh); !valid) return valid.error();
   return Packer(mesh, options).run();

@@ -1,7 +1,9 @@
 #pragma once
 // A mesh to a payload and back: the codec's sections and the attributes together.
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +20,24 @@ enum class AttributeCoder : uint8_t {
   kTutte,  ///< the codec's own predictors, which know polygons, and adaptive coder (codec/values.h)
 };
 
+/// How far a component of a decoded value may be from the original: 0: no bound, bits decide.
+struct ErrorBound {
+  double size = 0;        ///< in units of the attribute
+  bool relative = false;  ///< `size` is a part of the attribute's largest extent
+};
+
+/// Bounds per kind of attribute, as quantisation bits are.
+struct ErrorBounds {
+  ErrorBound position, texcoord, color, generic;
+};
+
+/// A grid for positions that several meshes share: the points origin + k * step, k whole. Equal positions become equal
+/// floats, whatever else is in a mesh.
+struct PositionGrid {
+  std::array<float, 3> origin{};
+  float step = 0;
+};
+
 /// Quantisation in bits per component; 0 keeps an attribute as it is, without loss. Integer attributes, JOINTS and
 /// WEIGHTS are always coded without loss.
 struct PackOptions {
@@ -25,10 +45,15 @@ struct PackOptions {
   int normal_bits = 10;  ///< normals and tangents
   int texcoord_bits = 12;
   int color_bits = 8;
-  int generic_bits = 12;  ///< custom float attributes and morph-target deltas of anything but positions
+  int generic_bits = 12;               ///< custom float attributes and morph-target deltas of anything but positions
+  ErrorBounds errors;                  ///< where one is given, it decides instead of the bits
+  std::optional<PositionGrid> grid{};  ///< of POSITION, also of morph targets, instead of position_bits
   AttributeCoder attribute_coder = AttributeCoder::kAuto;
   EncodeOptions connectivity;  ///< profile and effort, which kTutte shares
 };
+
+/// The same options, but without any quantisation: every attribute comes back bit for bit.
+PackOptions withoutLoss(PackOptions options);
 
 /// A payload and how it relates to the mesh that it was made from.
 struct Packed {

@@ -47,8 +47,10 @@ class SceneWriter {
   Outcome<Compressed> run() {
     result_.asset.json = {{"asset", {{"version", "2.0"}, {"generator", "tutte"}}}};
     addMaterials();
+    const auto grids = planGrids(boxes(), options_.pack, options_.grid);
+    if (!grids) return grids.error();
     for (size_t i = 0; i < scene_.meshes.size(); ++i) {
-      const auto added = addMesh(i);
+      const auto added = addMesh(i, (*grids)[i]);
       if (!added) return added.error();
     }
     addNodes();
@@ -70,14 +72,26 @@ class SceneWriter {
     }
   }
 
-  Outcome<Done> addMesh(size_t index) {
+  std::vector<PositionBox> boxes() const {
+    std::vector<PositionBox> result;
+    for (const SceneMesh& mesh : scene_.meshes) {
+      const auto& attributes = mesh.mesh.attributes;
+      const bool used = !mesh.mesh.polygons.face_degrees.empty() && !attributes.empty();
+      result.push_back(used ? boxOf(attributes[0], result.size()) : PositionBox{});
+    }
+    return result;
+  }
+
+  Outcome<Done> addMesh(size_t index, const std::optional<PositionGrid>& grid) {
     const SceneMesh& source = scene_.meshes[index];
     const PolygonMesh mesh = withAttributes(source.mesh, options_.attributes);
     if (mesh.polygons.face_degrees.empty()) {
       result_.report.warnings.push_back(unsupported(source.name, "a mesh without faces is left out"));
       return Done{};
     }
-    auto packed = pack(mesh, options_.pack);
+    PackOptions pack_options = options_.pack;
+    pack_options.grid = grid;
+    auto packed = pack(mesh, pack_options);
     if (!packed) return at(source, packed.error());
     const auto decoded = unpack(packed->bytes);
     if (!decoded) return at(source, decoded.error());

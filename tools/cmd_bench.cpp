@@ -6,6 +6,7 @@
 #include "tools/bench.h"
 #include "tools/bench_tables.h"
 #include "tools/command.h"
+#include "tools/lossless_bench.h"
 
 namespace tutte {
 namespace {
@@ -73,34 +74,56 @@ struct Bench {
                  .attributes = {},
                  .profiles = {Profile::kPaper, Profile::kFast, Profile::kDefault, Profile::kSmall}};
   bool as_json = false;
+  bool lossless = false;
 
   Outcome<Done> run() {
     plan.attributes = {attributes.begin(), attributes.end()};
-    if (!as_json) printSizeHead();
-    std::vector<BenchFigures> rows;
-    std::optional<Failure> first_failure;
-    for (const std::string& file : files) {
-      Outcome<BenchFigures> figures = measureFile(file);
-      if (!figures) {
-        printFailure(figures.error());
-        if (!first_failure) first_failure = {figures.error().kind, "", "some files were left out; see above"};
-        continue;
-      }
-      as_json ? printJson(*figures) : printSizes(*figures);
-      std::fflush(stdout);
-      rows.push_back(*std::move(figures));
-    }
-    if (!as_json) printSummary(rows);
-    if (first_failure) return *first_failure;
+    lossless ? runLossless() : runQuantised();
+    if (first_failure_) return *first_failure_;
     return Done{};
   }
 
  private:
-  Outcome<BenchFigures> measureFile(const std::string& file) const {
-    Outcome<LoadedScene> loaded = loadScene(file);
-    if (!loaded) return loaded.error();
-    return inFile(measure(file, std::move(loaded->scene), plan), file);
+  void runQuantised() {
+    if (!as_json) printSizeHead();
+    std::vector<BenchFigures> rows;
+    forEachFile([&](const std::string& file, Scene scene) -> Outcome<Done> {
+      Outcome<BenchFigures> figures = measure(file, std::move(scene), plan);
+      if (!figures) return figures.error();
+      as_json ? printJson(*figures) : printSizes(*figures);
+      rows.push_back(*std::move(figures));
+      return Done{};
+    });
+    if (!as_json) printSummary(rows);
   }
+
+  void runLossless() {
+    if (!as_json) printLosslessHead();
+    LosslessFigures sum;
+    forEachFile([&](const std::string& file, const Scene& scene) -> Outcome<Done> {
+      const Outcome<LosslessFigures> figures = measureLossless(file, scene, plan);
+      if (!figures) return figures.error();
+      as_json ? printLosslessJson(*figures) : printLossless(*figures);
+      sum += *figures;
+      return Done{};
+    });
+    sum.file = "sum";
+    if (!as_json) printLossless(sum);
+  }
+
+  template <class Measure>
+  void forEachFile(Measure measure_one) {
+    for (const std::string& file : files) {
+      Outcome<LoadedScene> loaded = loadScene(file);
+      const Outcome<Done> done = loaded ? measure_one(file, std::move(loaded->scene)) : loaded.error();
+      std::fflush(stdout);
+      if (done) continue;
+      printFailure(inFile(done.error(), file));
+      if (!first_failure_) first_failure_ = {done.error().kind, "", "some files were left out; see above"};
+    }
+  }
+
+  std::optional<Failure> first_failure_;
 };
 
 constexpr const char* kNotes =
@@ -108,6 +131,7 @@ constexpr const char* kNotes =
     "  tutte bench --attributes POSITION --qp 11 beast.obj\n"
     "  tutte bench --profiles fast,small --seconds 1 scan.ply\n"
     "  tutte bench --json models/*.ply > figures.jsonl\n"
+    "  tutte bench --lossless models/*.glb\n"
     "\n"
     "D7, D10: Draco at compression levels 7 and 10 on the triangles, equal positions welded, the same quantisation.\n"
     "Connectivity, there, is what the buffer grows inside the connectivity step. Draco codes seams in that step: its\n"
@@ -141,6 +165,8 @@ void addBench(CLI::App& app, Action& action) {
       ->delimiter(',')
       ->option_text("paper,fast,default,small")
       ->group("Connectivity");
+  command.add_flag("--lossless", bench->lossless,
+                   "keep every bit, and compare with meshoptimizer's lossless codecs and zstd -19 instead of Draco");
   addAttributes(command, bench->attributes);
   command
       .add_option("--seconds", bench->plan.seconds, "how long each coder is repeated, up to ten times, for its best")

@@ -13,12 +13,14 @@ struct Encode {
   std::string input, output;
   CompressOptions options;
   std::vector<std::string> attributes;
+  bool lossless = false;
 
   Outcome<Done> run() {
     if (!isGltfName(output)) {
       return Failure{FailureKind::kUsage, output, "cannot encode to this kind of file; name a .glb or .gltf file"};
     }
     options.attributes = {attributes.begin(), attributes.end()};
+    if (lossless) options.pack = withoutLoss(options.pack);
     Outcome<Compressed> compressed = compressFile();
     if (!compressed) return inFile(compressed.error(), input);
     printWarnings(input, compressed->report.warnings);
@@ -67,6 +69,18 @@ void addEncode(CLI::App& app, Action& action) {
       ->required();
   command.add_option("output", encode->output, ".glb or .gltf")->required();
   addQuantization(command, encode->options.pack);
+  addErrorBounds(command, encode->options.pack.errors);
+  CLI::Option* const lossless = command.add_flag("--lossless", encode->lossless, "keep every bit of every attribute");
+  lossless->group("Quantisation");
+  for (const char* name : {"--qp", "--qn", "--qt", "--qc", "--qg", "--error"}) lossless->excludes(name);
+  static const std::map<std::string, GridScope> kScopes = {{"file", GridScope::kFile}, {"mesh", GridScope::kMesh}};
+  command
+      .add_option("--grid", encode->options.grid,
+                  "whose positions are rounded alike, so that no cracks open between them: file (meshes much smaller "
+                  "than the largest get a finer step), or mesh")
+      ->transform(CLI::CheckedTransformer(kScopes, CLI::ignore_case).description(""))
+      ->type_name("SCOPE")
+      ->group("Quantisation");
   addConnectivity(command, encode->options.pack.connectivity);
   addAttributes(command, encode->attributes);
   static const std::map<std::string, PolygonOutput> kPolygons = {{"auto", PolygonOutput::kAuto},
@@ -83,7 +97,9 @@ void addEncode(CLI::App& app, Action& action) {
   addExamples(command,
               "  tutte encode model.obj model.glb\n"
               "  tutte encode --qp 11 --attributes POSITION model.ply model.glb\n"
-              "  tutte encode --qp 0 --qn 0 --qt 0 model.fbx model.gltf     without loss");
+              "  tutte encode --error 0.1mm scan.ply scan.glb\n"
+              "  tutte encode --error 0.01%,TEXCOORD=0.0005 model.fbx model.glb\n"
+              "  tutte encode --lossless model.fbx model.gltf");
   command.callback([encode, &action] { action = [encode] { return encode->run(); }; });
 }
 

@@ -88,12 +88,17 @@ Outcome<Json> attributesOf(const PayloadView& payload) {
   if (!attributes) return attributes.error();
   const Outcome<std::vector<AttributeSize>> sizes = attributeSizesOf(payload);
   if (!sizes) return sizes.error();
+  const Outcome<std::vector<AttributeCoding>> codings = describeCodings(payload[Section::kAttributes]);
+  if (!codings) return codings.error();
   for (size_t i = 0; i < attributes->size(); ++i) {
     const Attribute& attribute = (*attributes)[i];
     list.push_back({{"name", attribute.name},
                     {"components", attribute.components},
                     {"type", typeName(attribute.type)},
                     {"normalized", attribute.normalized},
+                    {"coding", nameOf((*codings)[i].kind)},
+                    {"bits", (*codings)[i].bits},
+                    {"errorBound", errorBound((*codings)[i])},
                     {"bytes", (*sizes)[i].bytes()},
                     {"headBytes", (*sizes)[i].head_bytes},
                     {"planeBytes", (*sizes)[i].plane_bytes}});
@@ -157,7 +162,9 @@ void printClasses(const Json& section) {
 
 std::string describeType(const Json& attribute) {
   return attribute["type"].get<std::string>() + " x " + attribute["components"].dump() +
-         (attribute["normalized"] == true ? ", normalised" : "");
+         (attribute["normalized"] == true ? ", normalised" : "") + ", " + attribute["coding"].get<std::string>() +
+         (attribute["errorBound"] == 0.0 ? std::string(", exact")
+                                         : formatted(", error up to %.3g", attribute["errorBound"].get<double>()));
 }
 
 void print(const Json& payload, size_t number) {
@@ -183,9 +190,9 @@ void print(const Json& payload, size_t number) {
     if (section.contains("classes")) printClasses(section);
   }
   if (payload["attributes"].empty()) return;
-  std::printf("  %-22s %12s  %-18s %s\n", "attribute", "bytes", "type", "bytes per plane of values");
+  std::printf("  %-22s %12s  %-44s %s\n", "attribute", "bytes", "type", "bytes per plane of values");
   for (const Json& attribute : payload["attributes"]) {
-    std::printf("    %-20s %12s  %-18s", attribute["name"].get<std::string>().c_str(),
+    std::printf("    %-20s %12s  %-44s", attribute["name"].get<std::string>().c_str(),
                 withCommas(attribute["bytes"]).c_str(), describeType(attribute).c_str());
     for (const Json& bytes : attribute["planeBytes"]) std::printf(" %s", withCommas(bytes).c_str());
     std::printf("\n");

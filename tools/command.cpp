@@ -50,6 +50,7 @@ void addConnectivity(CLI::App& command, EncodeOptions& options) {
 void addAttributes(CLI::App& command, std::vector<std::string>& names) {
   command.add_option("--attributes", names, "keep only these, such as POSITION,NORMAL (POSITION always stays)")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("NAME,...");
 }
 
@@ -107,8 +108,8 @@ Outcome<LoadedScene> loadScene(const std::filesystem::path& path) {
   if (!asset) return inFile(asset.error(), path);
   Outcome<Scene> scene = assetToScene(*asset);
   if (!scene) return inFile(scene.error(), path);
-  const std::optional<PackOptions> bits = codedBits(*asset);
-  return LoadedScene{*std::move(scene), bits, bits.has_value()};
+  const auto bounds = codedBounds(*asset);
+  return LoadedScene{*std::move(scene), bounds, bounds.has_value()};
 }
 
 bool isGltfName(const std::filesystem::path& path) {

@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -31,6 +33,9 @@ void addTrace(CLI::App& app, Action& action);
 
 /// --qp --qn --qt --qc --qg.
 void addQuantization(CLI::App& command, PackOptions& options);
+
+/// --error, as in "0.1mm" or "TEXCOORD=0.01%".
+void addErrorBounds(CLI::App& command, ErrorBounds& errors);
 
 /// --profile and --effort.
 void addConnectivity(CLI::App& command, EncodeOptions& options);
@@ -63,7 +68,7 @@ void printWarnings(const std::filesystem::path& path, const std::vector<Failure>
 /// A file of any kind as a Scene; warnings are printed.
 struct LoadedScene {
   Scene scene;
-  std::optional<PackOptions> bits;  ///< how its payloads are quantised, if it has any
+  std::optional<std::map<std::string, double>> bounds;  ///< of its payloads, if it has any (see codedBounds())
   bool keeps_vertices = true;  ///< the file says which corners share a vertex (plain glTF does not, welding guesses)
 };
 Outcome<LoadedScene> loadScene(const std::filesystem::path& path);

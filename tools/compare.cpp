@@ -13,7 +13,7 @@ namespace {
 
 /// Vertices without faces: within each class, one of A's with one of B's.
 std::optional<Difference> matchIsolated(const FlatScene& a, const FlatScene& b, const ClassPair& classes,
-                                        const ValueCheck& check) {
+                                        const ValueCheck& check, std::vector<double>& errors) {
   const auto isolated = [](const FlatScene& scene, const std::vector<uint64_t>& labels) {
     std::vector<uint8_t> used(scene.positions.size());
     for (Index corner : scene.corners) used[corner] = 1;
@@ -37,6 +37,7 @@ std::optional<Difference> matchIsolated(const FlatScene& a, const FlatScene& b, 
     const auto window = list_b.begin() + static_cast<ptrdiff_t>(std::min(list_b.size(), i + 1000));
     const auto found = std::find_if(list_b.begin() + static_cast<ptrdiff_t>(i), window, matches);
     if (found == window) return Difference{"a vertex without polygons has no counterpart", list_a[i]};
+    check.gauge(list_a[i], *found, a.vertex_wedges[list_a[i]], b.vertex_wedges[*found], errors);
     std::iter_swap(list_b.begin() + static_cast<ptrdiff_t>(i), found);
   }
   return {};
@@ -77,7 +78,8 @@ std::vector<Index> identity(size_t count) {
   return result;
 }
 
-std::optional<Difference> findDifference(const FlatScene& a, const FlatScene& b, const CompareOptions& options) {
+std::optional<Difference> findDifference(const FlatScene& a, const FlatScene& b, const CompareOptions& options,
+                                         std::vector<AttributeError>& found) {
   const ValueCheck check(a, b, options.attributes);
   if (!check.missing().empty()) return Difference{check.missing()};
   const PlaceNumbers places = numberPlaces(a, b);
@@ -87,15 +89,22 @@ std::optional<Difference> findDifference(const FlatScene& a, const FlatScene& b,
   const ComparedVertices vertices =
       exact ? ComparedVertices{identity(a.positions.size()), identity(b.positions.size()), a.positions.size(), false}
             : ComparedVertices{places.a, places.b, places.count, true};
-  if (auto difference = matchFaces(a, b, classes, check, vertices)) return difference;
-  return exact ? matchIsolated(a, b, classes, check) : std::nullopt;
+  const std::vector<std::string> names = check.names();
+  std::vector<double> errors(names.size());
+  if (auto difference = matchFaces(a, b, classes, check, vertices, errors)) return difference;
+  if (exact) {
+    if (auto difference = matchIsolated(a, b, classes, check, errors)) return difference;
+  }
+  for (size_t i = 0; i < names.size(); ++i) found.push_back({names[i], errors[i]});
+  return {};
 }
 
 }  // namespace
 
 Comparison compare(const Scene& a, const Scene& b, const CompareOptions& options) {
-  const FlatScene flat_a = flatten(a, options.bits, options.tolerance);
-  const FlatScene flat_b = flatten(b, options.bits, options.tolerance);
+  const Tolerances tolerances{options.bits, options.bounds, options.tolerance, options.exact};
+  const FlatScene flat_a = flatten(a, tolerances);
+  const FlatScene flat_b = flatten(b, tolerances);
   Comparison result;
   result.vertices = flat_a.positions.size();
   result.faces = flat_a.faceCount();
@@ -105,7 +114,7 @@ Comparison compare(const Scene& a, const Scene& b, const CompareOptions& options
     result.difference = "the first file has " + std::to_string(flat_a.faceCount()) + " polygons, the second " +
                         std::to_string(flat_b.faceCount()) + "; ";
   }
-  const auto difference = findDifference(flat_a, flat_b, options);
+  const auto difference = findDifference(flat_a, flat_b, options, result.errors);
   result.same = !difference && result.difference.empty();
   if (difference) result.difference += sentence(*difference, flat_a, flat_b);
   return result;

@@ -48,13 +48,14 @@ class Matcher {
         vertex_to_b_(vertices.count, kNone),
         vertex_to_a_(vertices.count, kNone),
         face_to_b_(a.faceCount(), kNone),
-        face_to_a_(b.faceCount(), kNone) {
+        face_to_a_(b.faceCount(), kNone),
+        turns_(a.faceCount()) {
     if (!vertices.related) return;
     std::iota(vertex_to_b_.begin(), vertex_to_b_.end(), 0u);
     vertex_to_a_ = vertex_to_b_;
   }
 
-  std::optional<Difference> run() {
+  std::optional<Difference> run(std::vector<double>& errors) {
     sortByLabel();
     // Faces that only one other can be come first: what follows from them is certain.
     for (const bool unique : {true, false}) {
@@ -63,7 +64,9 @@ class Matcher {
         if (!start(face)) return difference_;
       }
     }
-    return matchRings();
+    if (auto difference = matchRings()) return difference;
+    gauge(errors);
+    return {};
   }
 
  private:
@@ -141,6 +144,7 @@ class Matcher {
 
   void relate(Index face_a, Index face_b, Index turn) {
     face_to_b_[face_a] = face_b;
+    turns_[face_a] = turn;
     face_to_a_[face_b] = face_a;
     changed_faces_.push_back(face_a);
     for (Index i = 0; i < a_.degree(face_a); ++i) {
@@ -189,6 +193,15 @@ class Matcher {
     }
   }
 
+  void gauge(std::vector<double>& errors) const {
+    for (Index face = 0; face < a_.faceCount(); ++face) {
+      for (Index i = 0; i < a_.degree(face); ++i) {
+        const Index x = a_.face_starts[face] + i, y = cornerB(face, face_to_b_[face], i, turns_[face]);
+        check_.gauge(a_.corners[x], b_.corners[y], a_.wedges[x], b_.wedges[y], errors);
+      }
+    }
+  }
+
   /// Interior rings must lie in related polygons.
   std::optional<Difference> matchRings() const {
     for (Index face = 0; face < a_.faceCount(); ++face) {
@@ -206,6 +219,7 @@ class Matcher {
   const ComparedVertices& vertices_;
   Incidence incidence_a_, incidence_b_;
   std::vector<Index> vertex_to_b_, vertex_to_a_, face_to_b_, face_to_a_;
+  std::vector<Index> turns_;              ///< per face of A that is related: the corner of B's face at its first one
   std::vector<Index> order_a_, order_b_;  ///< faces by label
   std::vector<Index> changed_vertices_, changed_faces_;
   std::optional<Difference> difference_;
@@ -214,8 +228,9 @@ class Matcher {
 }  // namespace
 
 std::optional<Difference> matchFaces(const FlatScene& a, const FlatScene& b, const ClassPair& classes,
-                                     const ValueCheck& check, const ComparedVertices& vertices) {
-  return Matcher(a, b, classes, check, vertices).run();
+                                     const ValueCheck& check, const ComparedVertices& vertices,
+                                     std::vector<double>& errors) {
+  return Matcher(a, b, classes, check, vertices).run(errors);
 }
 
 }  // namespace tutte

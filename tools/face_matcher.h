@@ -19,9 +19,10 @@ struct ComparedVertices {
 };
 
 /// Looks for a one-to-one relation of faces and vertices with equal labels, positions and attributes. Nothing when
-/// there is one; otherwise the first face for which there is none. O(n log n), plus the candidates that had to be tried
-/// where labels tell nothing apart.
+/// there is one, and `errors` are gauged by it (see ValueCheck::gauge()); otherwise the first face for which there is
+/// none. O(n log n), plus the candidates that had to be tried where labels tell nothing apart.
 std::optional<Difference> matchFaces(const FlatScene& a, const FlatScene& b, const ClassPair& classes,
-                                     const ValueCheck& check, const ComparedVertices& vertices);
+                                     const ValueCheck& check, const ComparedVertices& vertices,
+                                     std::vector<double>& errors);
 
 }  // namespace tutte

@@ -3,28 +3,10 @@
 #include <algorithm>
 
 #include "codec/payload_mesh.h"
-#include "gltf_ext/attribute_name.h"
 #include "gltf_ext/attribute_topology.h"
 #include "gltf_ext/decompress.h"
 
 namespace tutte {
-
-namespace {
-
-/// The option that an attribute's bits came from.
-int& bitsFor(const std::string& name, PackOptions& options) {
-  const AttributeName parsed = parseName(name);
-  switch (parsed.semantic) {
-    case Semantic::kPosition: return options.position_bits;
-    case Semantic::kNormal:
-    case Semantic::kTangent: return parsed.is_target ? options.generic_bits : options.normal_bits;
-    case Semantic::kTexcoord: return parsed.is_target ? options.generic_bits : options.texcoord_bits;
-    case Semantic::kColor: return parsed.is_target ? options.generic_bits : options.color_bits;
-    default: return options.generic_bits;
-  }
-}
-
-}  // namespace
 
 Outcome<std::vector<AttributeSize>> attributeSizesOf(const PayloadView& payload) {
   if (!payload.has(Section::kAttributes)) return std::vector<AttributeSize>();
@@ -33,22 +15,21 @@ Outcome<std::vector<AttributeSize>> attributeSizesOf(const PayloadView& payload)
   return attributeSizes(attributeTopology(mesh->connectivity, mesh->seams), payload[Section::kAttributes]);
 }
 
-std::optional<PackOptions> codedBits(const Asset& asset) {
+std::optional<std::map<std::string, double>> codedBounds(const Asset& asset) {
   const Outcome<std::vector<PayloadBytes>> payloads = payloadsOf(asset);
   if (!payloads) return {};
-  PackOptions bits{.position_bits = 0, .normal_bits = 0, .texcoord_bits = 0, .color_bits = 0, .generic_bits = 0};
+  std::map<std::string, double> bounds;
   for (const PayloadBytes& payload : *payloads) {
     const auto section = payload.view[Section::kAttributes];
     const auto attributes = describeAttributes(section);
     const auto codings = describeCodings(section);
     if (!attributes || !codings) continue;
     for (size_t i = 0; i < attributes->size(); ++i) {
-      int& least = bitsFor((*attributes)[i].name, bits);
-      const int own = (*codings)[i].bits;  // 0: without loss
-      if (own > 0) least = least == 0 ? own : std::min(least, own);
+      double& bound = bounds[(*attributes)[i].name];
+      bound = std::max(bound, errorBound((*codings)[i]));
     }
   }
-  return bits;
+  return bounds;
 }
 
 Outcome<std::vector<PayloadBytes>> payloadsOf(const Asset& asset) {

@@ -1,8 +1,10 @@
 #pragma once
 // The payloads of an asset, for the commands that look into them.
 
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "codec/payload.h"
@@ -27,8 +29,8 @@ Outcome<std::vector<PayloadBytes>> payloadsOf(const Asset& asset);
 /// What each attribute of a payload takes of its section ATTRIBUTES; decodes the payload for it. Empty without one.
 Outcome<std::vector<AttributeSize>> attributeSizesOf(const PayloadView& payload);
 
-/// The coarsest quantisation that the payloads state, per kind of attribute; 0 where all are without loss. Nothing when
-/// the asset has no payload that can be read.
-std::optional<PackOptions> codedBits(const Asset& asset);
+/// Per attribute name: how far a component may be from the original in any payload, as their codings say; 0 without
+/// loss. Nothing when the asset has no payload that can be read.
+std::optional<std::map<std::string, double>> codedBounds(const Asset& asset);
 
 }  // namespace tutte

@@ -42,9 +42,41 @@ const char* ValueCheck::differing(Index wedge_a, Index wedge_b) const {
   const Index mesh_a = a_.wedge_meshes[wedge_a], mesh_b = b_.wedge_meshes[wedge_b];
   for (const Pair& pair : pairs_) {
     const bool same_meshes = pair.a.given[mesh_a] == pair.b.given[mesh_b];
+    const bool exact = !pair.a.bits.empty() && pair.a.given[mesh_a] && same_meshes;
+    if (exact && (pair.a.types[mesh_a] != pair.b.types[mesh_b] || !sameBits(pair, wedge_a, wedge_b))) {
+      return pair.a.name.c_str();
+    }
     if (!same_meshes || !sameValue(pair, wedge_a, wedge_b, pair.a.tolerances[mesh_a])) return pair.a.name.c_str();
   }
   return nullptr;
+}
+
+std::vector<std::string> ValueCheck::names() const {
+  std::vector<std::string> result{"POSITION"};
+  for (const Pair& pair : pairs_) result.push_back(pair.a.name);
+  return result;
+}
+
+void ValueCheck::gauge(Index vertex_a, Index vertex_b, Index wedge_a, Index wedge_b,
+                       std::vector<double>& errors) const {
+  const auto raise = [](double& error, double x, double y) {
+    if (const double off = std::abs(x - y); off > error) error = off;
+  };
+  for (int axis = 0; axis < 3; ++axis) raise(errors[0], a_.positions[vertex_a][axis], b_.positions[vertex_b][axis]);
+  for (size_t p = 0; p < pairs_.size(); ++p) {
+    const Pair& pair = pairs_[p];
+    for (int i = 0; i < std::min(pair.a.components, pair.b.components); ++i) {
+      raise(errors[p + 1], pair.a.values[size_t{wedge_a} * pair.a.components + i],
+            pair.b.values[size_t{wedge_b} * pair.b.components + i]);
+    }
+  }
+}
+
+bool ValueCheck::sameBits(const Pair& pair, Index wedge_a, Index wedge_b) {
+  return pair.a.components == pair.b.components &&
+         std::equal(pair.a.bits.begin() + ptrdiff_t{wedge_a} * pair.a.components,
+                    pair.a.bits.begin() + ptrdiff_t{wedge_a + 1} * pair.a.components,
+                    pair.b.bits.begin() + ptrdiff_t{wedge_b} * pair.b.components);
 }
 
 bool ValueCheck::sameValue(const Pair& pair, Index wedge_a, Index wedge_b, double tolerance) {

@@ -9,7 +9,7 @@
 
 namespace tutte {
 
-/// Compares values within A's tolerances. Refers to both scenes.
+/// Compares values within A's tolerances, or bit for bit where the scenes have bits. Refers to both scenes.
 class ValueCheck {
  public:
   /// `names`: the attributes to compare; empty: all.
@@ -19,6 +19,12 @@ class ValueCheck {
   const std::string& missing() const { return missing_; }
 
   bool samePlace(Index vertex_a, Index vertex_b) const;
+
+  /// The attributes that are compared: POSITION first.
+  std::vector<std::string> names() const;
+
+  /// Raises errors[i] to the largest difference of a component of attribute names()[i] between these.
+  void gauge(Index vertex_a, Index vertex_b, Index wedge_a, Index wedge_b, std::vector<double>& errors) const;
 
   /// The first attribute in which two wedges differ, or nullptr.
   const char* differing(Index wedge_a, Index wedge_b) const;
@@ -31,6 +37,7 @@ class ValueCheck {
   };
 
   static bool sameValue(const Pair& pair, Index wedge_a, Index wedge_b, double tolerance);
+  static bool sameBits(const Pair& pair, Index wedge_a, Index wedge_b);
 
   const FlatScene& a_;
   const FlatScene& b_;

@@ -32,12 +32,16 @@ class HostileAttributes : public testing::TestWithParam<AttributeCoder> {
     attributes_.push_back(makeAttribute<uint8_t>("JOINTS_0", ComponentType::kUint8, 4, count,
                                                  [](Index w, int c) { return static_cast<uint8_t>(w / 8 + c); }));
     attributes_.push_back(makeFloats("WEIGHTS_0", 4, count, [](Index w, int c) { return 1.0 / (w + c + 1); }));
+    attributes_.push_back(makeFloats("_FEW", 2, count, [](Index w, int c) { return 0.1234567 * (w % (2 + c)); }));
+    attributes_.push_back(makeFloats("POSITION@0", 3, count, [](Index w, int c) { return 0.01 * std::sin(w + c); }));
     attributes_.push_back(makeFloats("_IDS@1", 1, count, [](Index w, int) { return static_cast<float>(w % 7); }));
   }
 
   Bytes section() {
     PackOptions options;
     options.attribute_coder = GetParam();
+    options.generic_bits = 0;
+    options.grid = PositionGrid{{-0.5f, 0, 0.25f}, 0.002f};
     auto bytes = encodeAttributes(mesh_.topology(attributes_), attributes_, options);
     EXPECT_TRUE(bytes.ok());
     return *std::move(bytes);

@@ -201,6 +201,46 @@ TEST_F(OneAttribute, WeightsAreExact) {
                          [](Index w, int c) { return static_cast<float>(w * (c + 1) % 256) / 255.f; }));
 }
 
+TEST_F(OneAttribute, WeightsThatSumUpToOneCostLittle) {
+  const Attribute weights = makeFloats("WEIGHTS_0", 4, count(), [](Index w, int c) {
+    const double first = 0.5 + 0.3 * std::sin(0.1 * w), second = (1 - first) * 0.7, third = (1 - first) * 0.2;
+    const float parts[] = {static_cast<float>(first), static_cast<float>(second), static_cast<float>(third)};
+    return c < 3 ? parts[c] : 1 - parts[0] - parts[1] - parts[2];
+  });
+  expectExact(weights);
+  Attribute without = weights;
+  without.components = 3;
+  without.data.clear();
+  for (Index w = 0; w < count(); ++w) {
+    without.data.insert(without.data.end(), &weights.data[16 * w], &weights.data[16 * w + 12]);
+  }
+  const std::vector<Attribute> all{positionsOf(mesh_, shape_), weights}, some{all[0], without};
+  const auto four = encodeAttributes(mesh_.topology(all), all, {}),
+             three = encodeAttributes(mesh_.topology(some), some, {});
+  EXPECT_LE(four->size(), three->size() + count() * 3 / 4);
+}
+
+TEST_F(OneAttribute, FewFloatsAreExactAndCheap) {
+  const Attribute few = makeFloats("_FEW", 3, count(), [](Index w, int c) { return std::sin(1.0 + w / 9 % 4 + c); });
+  expectExact(few, lossless());
+  const std::vector<Attribute> attributes{positionsOf(mesh_, shape_), few};
+  const auto with = encodeAttributes(mesh_.topology(attributes), attributes, lossless());
+  const auto without = encodeAttributes(mesh_.topology({attributes[0]}), {attributes.data(), 1}, lossless());
+  EXPECT_LE(with->size(), without->size() + 12 * 5 + count());
+}
+
+TEST_F(OneAttribute, ErrorBoundsAreKept) {
+  for (const char* name : {"TEXCOORD_0", "COLOR_0", "_CUSTOM", "NORMAL@0"}) {
+    for (const double bound : {0.1, 0.01, 1e-4}) {
+      PackOptions options;
+      options.errors.texcoord = options.errors.color = options.errors.generic = {bound, false};
+      const Attribute attribute = makeFloats(name, 3, count(), wave);
+      EXPECT_LE(largestError(attribute, through(attribute, options)), bound) << name;
+      EXPECT_GE(largestError(attribute, through(attribute, options)), bound / 5) << name;
+    }
+  }
+}
+
 TEST_F(OneAttribute, WholeNumbersAreExact) {
   expectExact(makeFloats("_FEATURE_ID_0", 1, count(), [](Index w, int) { return static_cast<float>(w / 9); }));
   expectExact(

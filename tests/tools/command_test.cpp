@@ -114,6 +114,42 @@ TEST_F(Command, LosslessIsExact) {
   expectCode(tutte("verify --qp 0 --qt 0 " + house_ + " " + path("house.gltf")), 0);
 }
 
+TEST_F(Command, LosslessIsToldByBits) {
+  const std::string odd = "'" +
+                          scratch_.write("odd.obj",
+                                         "v 0.1 -0.0 1e-30\nv 1.23 0.01 0\nv 0.57 1.11 0.333\nv 7 8 9.125\n"
+                                         "f 1 2 3\nf 1 2 4\n") +
+                          "'";
+  expectCode(tutte("encode --lossless " + odd + " " + path("odd.glb")), 0);
+  const Finished same = tutte("verify --exact " + odd + " " + path("odd.glb"));
+  expectCode(same, 0);
+  EXPECT_NE(same.out.find("same bits"), std::string::npos) << same.out;
+  expectCode(tutte("encode --qp 20 " + odd + " " + path("coarse.glb")), 0);
+  expectCode(tutte("verify " + odd + " " + path("coarse.glb")), 0);
+  expectCode(tutte("verify --exact " + odd + " " + path("coarse.glb")), 4);
+  expectCode(tutte("encode --lossless --qp 12 " + odd + " " + path("a.glb")), 1);
+  expectCode(tutte("encode --error 1mm --lossless " + odd + " " + path("a.glb")), 1);
+}
+
+TEST_F(Command, ErrorBoundsAreKeptAndTold) {
+  for (const std::string bound : {"1mm", "0.1cm", "1000um", "0.001", "0.001m", "0.025%"}) {
+    const Finished encoded = tutte("encode --error " + bound + ",TEXCOORD=0.01 " + house_ + " " + path("house.glb"));
+    expectCode(encoded, 0);
+    const Finished inspected = tutte("inspect --json " + path("house.glb"));
+    const auto attributes = nlohmann::json::parse(inspected.out).at("payloads").at(0).at("attributes");
+    EXPECT_LE(attributes.at(0).at("errorBound"), 0.00176) << bound;
+    EXPECT_GE(attributes.at(0).at("errorBound"), 0.0009) << bound;
+    EXPECT_LE(attributes.at(1).at("errorBound"), 0.01) << bound;
+    const Finished verified = tutte("verify " + house_ + " " + path("house.glb"));
+    expectCode(verified, 0);
+    EXPECT_NE(verified.out.find("POSITION"), std::string::npos) << verified.out;
+    EXPECT_NE(verified.out.find("largest error"), std::string::npos) << verified.out;
+  }
+  for (const std::string wrong : {"0", "-1mm", "1 parsec", "mm", "101%", "NORMAL=1", "TEXCOORD=1mm", "nan", "1e-12"}) {
+    expectCode(tutte("encode '--error=" + wrong + "' " + house_ + " " + path("a.glb")), 1);
+  }
+}
+
 TEST_F(Command, CoarserThanVerifiedIsDifferent) {
   const std::string bumpy =
       "'" + scratch_.write("bumpy.obj", "v 0 0 0\nv 1.23 0.01 0\nv 0.57 1.11 0.333\nf 1 2 3\n") + "'";
