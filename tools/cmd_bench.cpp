@@ -163,6 +163,7 @@ void addBench(CLI::App& app, Action& action) {
                   "profiles of the connectivity coder that are measured beside the file's own; by default all")
       ->transform(CLI::CheckedTransformer(kProfiles))
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->option_text("paper,fast,default,small")
       ->group("Connectivity");
   command.add_flag("--lossless", bench->lossless,
