@@ -155,6 +155,7 @@ const char* tutte_describe(int32_t status) {
     case TUTTE_BUFFER_TOO_SMALL: return "the array is longer than the buffer";
     case TUTTE_NOT_AVAILABLE: return "this mesh or payload does not have that";
     case TUTTE_NOT_BUILT: return "this build of the library leaves out what the data needs";
+    case TUTTE_UNSUPPORTED: return "the file uses something that is not handled";
     default: break;
   }
   const bool known = status <= 0 && status >= TUTTE_ATTRIBUTES;

@@ -52,7 +52,8 @@ enum {
   TUTTE_INVALID_ARGUMENT = -100,  /**< a null pointer, or a number that is none of those listed here */
   TUTTE_BUFFER_TOO_SMALL = -101,  /**< the array has more elements than there is room for; nothing was written */
   TUTTE_NOT_AVAILABLE = -102,     /**< this handle does not have that array */
-  TUTTE_NOT_BUILT = -103          /**< this build of the library leaves out what these bytes need */
+  TUTTE_NOT_BUILT = -103,         /**< this build of the library leaves out what these bytes need */
+  TUTTE_UNSUPPORTED = -104        /**< a valid file that uses something which is not handled */
 };
 
 /** A sentence in English for any status, never null. */

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "gltf_ext/extension.h"
-#include "gltf_ext/files.h"
 #include "gltf_ext/glb.h"
 #include "gltf_ext/json_access.h"
 #include "gltf_ext/uri.h"
@@ -17,7 +16,7 @@ constexpr uint64_t kMaxAssetBytes = uint64_t{1} << 32;
 /// Loads what the JSON refers to.
 class Loader {
  public:
-  Loader(Asset& asset, const std::filesystem::path& folder) : asset_(asset), folder_(folder) {}
+  Loader(Asset& asset, FileSource* files) : asset_(asset), files_(files) {}
 
   Outcome<Done> buffers(Bytes bin, bool is_glb) {
     const size_t count = countOf(asset_.json, "buffers");
@@ -35,27 +34,26 @@ class Loader {
     return Done{};
   }
 
-  /// Images that are not in the folder stay as URIs: a viewer reports them, we need not.
+  /// Images that are not there stay as URIs: a viewer reports them, we need not.
   Outcome<Done> images() {
-    for (size_t i = 0; i < countOf(asset_.json, "images") && !folder_.empty(); ++i) {
+    for (size_t i = 0; files_ && i < countOf(asset_.json, "images"); ++i) {
       const auto image = elementOf(asset_.json, "images", i);
       if (!image) return image.error();
       const std::string uri = stringMember(**image, "uri");
       if (uri.empty() || hasScheme(uri) || asset_.files.count(uri)) continue;
-      const auto path = resolveInside(folder_, uri, pointerTo("images", i) + "/uri");
-      if (!path) return path.error();
-      auto bytes = read(*path, pointerTo("images", i));
-      if (bytes) asset_.files[uri] = *std::move(bytes);
+      auto bytes = read(uri, pointerTo("images", i) + "/uri");
+      if (bytes) {
+        asset_.files[uri] = *std::move(bytes);
+      } else if (bytes.error().kind != FailureKind::kIo) {
+        return bytes.error();
+      }
     }
     return Done{};
   }
 
  private:
-  Outcome<Bytes> read(const std::filesystem::path& path, const std::string& where) {
-    std::error_code error;
-    const uintmax_t size = std::filesystem::file_size(path, error);
-    if (!error && size > kMaxAssetBytes - loaded_) return invalid(where, "the asset has more than 4 GiB of data");
-    auto bytes = readFile(path);
+  Outcome<Bytes> read(const std::string& uri, const std::string& where) {
+    auto bytes = files_->read(uri, kMaxAssetBytes - loaded_, where);
     if (bytes) loaded_ += bytes->size();
     return bytes;
   }
@@ -64,18 +62,13 @@ class Loader {
     const std::string uri = stringMember(buffer, "uri");
     const std::string where = pointerTo("buffers", index) + "/uri";
     if (!member(buffer, "uri")) return Done{};
-    auto bytes = isDataUri(uri) ? decodeDataUri(uri, where) : file(uri, where);
+    const bool is_data = isDataUri(uri);
+    if (!is_data && !files_) return unsupported(where, "external buffers need a folder: load the asset from a file");
+    auto bytes = is_data ? decodeDataUri(uri, where) : read(uri, where);
     if (!bytes && bytes.error().kind == FailureKind::kIo && isFallbackBuffer(buffer)) return Done{};
     if (!bytes) return bytes.error();
     asset_.buffers[index] = *std::move(bytes);
     return Done{};
-  }
-
-  Outcome<Bytes> file(const std::string& uri, const std::string& where) {
-    if (folder_.empty()) return unsupported(where, "external buffers need a folder: load the asset from a file");
-    const auto path = resolveInside(folder_, uri, where);
-    if (!path) return path.error();
-    return read(*path, where);
   }
 
   /// Cuts padding off and refuses buffers that are too short. Placeholders have no bytes at all.
@@ -91,7 +84,7 @@ class Loader {
   }
 
   Asset& asset_;
-  const std::filesystem::path& folder_;
+  FileSource* const files_;
   uint64_t loaded_ = 0;
 };
 
@@ -104,13 +97,13 @@ Outcome<Done> checkVersion(const Json& json) {
   return Done{};
 }
 
-Outcome<Asset> assemble(std::string_view text, Bytes bin, bool is_glb, const std::filesystem::path& folder) {
+Outcome<Asset> assemble(std::string_view text, Bytes bin, bool is_glb, FileSource* files) {
   auto json = parseJson(text, "");
   if (!json) return json.error();
   Asset asset{*std::move(json), {}, {}};
   const auto version = checkVersion(asset.json);
   if (!version) return version.error();
-  Loader loader(asset, folder);
+  Loader loader(asset, files);
   const auto buffers = loader.buffers(std::move(bin), is_glb);
   if (!buffers) return buffers.error();
   const auto images = loader.images();
@@ -120,30 +113,18 @@ Outcome<Asset> assemble(std::string_view text, Bytes bin, bool is_glb, const std
 
 }  // namespace
 
-Outcome<Asset> parseAsset(std::span<const uint8_t> bytes, const std::filesystem::path& folder) {
+Outcome<Asset> parseAsset(std::span<const uint8_t> bytes, FileSource* files) {
   return guarded<Asset>([&]() -> Outcome<Asset> {
     if (!isGlb(bytes)) {
       const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
       if (text.find('{') == text.npos)
         return invalid("", "this is no glTF: neither a GLB, which begins with the letters glTF, nor JSON");
-      return assemble(text, {}, false, folder);
+      return assemble(text, {}, false, files);
     }
     const auto glb = splitGlb(bytes);
     if (!glb) return glb.error();
-    return assemble(glb->json, Bytes(glb->bin.begin(), glb->bin.end()), true, folder);
+    return assemble(glb->json, Bytes(glb->bin.begin(), glb->bin.end()), true, files);
   });
-}
-
-Outcome<Asset> loadAsset(const std::filesystem::path& path) {
-  const auto bytes = readFile(path);
-  if (!bytes) return bytes.error();
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  auto asset = parseAsset(*bytes, folder);
-  if (asset) return asset;
-  Failure failure = asset.error();
-  if (failure.kind != FailureKind::kIo)
-    failure.where = path.string() + (failure.where.empty() ? "" : " ") + failure.where;
-  return failure;
 }
 
 }  // namespace tutte

@@ -153,7 +153,8 @@ void toGrid(const Attribute& attribute, const AttributeCoding& coding, Plane& ou
 void fromGrid(const Plane& in, const AttributeCoding& coding, Attribute& out) {
   for (size_t i = 0; i < in.values.size(); ++i) {
     const size_t c = i % out.components;
-    const double offset = (double{in.values[i]} + coding.first[c]) * coding.step;
+    const double number = in.values[i];
+    const double offset = (number + coding.first[c]) * coding.step;
     storeFloat(&out.data[4 * i], static_cast<float>(double{coding.origin[c]} + offset));
   }
 }

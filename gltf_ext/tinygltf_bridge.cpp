@@ -9,6 +9,7 @@
 #include <tiny_gltf.h>
 
 #include "gltf_ext/asset.h"
+#include "gltf_ext/asset_files.h"
 #include "gltf_ext/asset_rules.h"
 #include "gltf_ext/decompress.h"
 #include "gltf_ext/json_access.h"

@@ -1,8 +1,7 @@
 #pragma once
-// URIs in glTF: data URIs, and paths below the asset's folder.
+// URIs in glTF: their schemes, data URIs, percent escapes.
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,13 +28,5 @@ std::optional<std::string> percentDecode(std::string_view text);
 
 /// The reverse, for file names.
 std::string percentEncode(std::string_view text);
-
-/// The relative path that a URI means, after percent-decoding. Refused (kInvalid at `where`): schemes, absolute paths,
-/// drive letters, backslashes, control characters, and any step to a parent folder.
-Outcome<std::filesystem::path> safeRelativePath(std::string_view uri, const std::string& where);
-
-/// The same below `folder`, symbolic links resolved: one that leads outside is refused, too.
-Outcome<std::filesystem::path> resolveInside(const std::filesystem::path& folder, std::string_view uri,
-                                             const std::string& where);
 
 }  // namespace tutte

@@ -2,6 +2,7 @@
 #include <map>
 #include <memory>
 
+#include "gltf_ext/asset_files.h"
 #include "gltf_ext/files.h"
 #include "tools/command.h"
 #include "tools/import.h"

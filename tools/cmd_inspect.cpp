@@ -5,6 +5,7 @@
 #include "codec/decode.h"
 #include "codec/section.h"
 #include "codec/spending.h"
+#include "gltf_ext/asset_files.h"
 #include "gltf_ext/attributes.h"
 #include "tools/command.h"
 #include "tools/payloads.h"

@@ -3,6 +3,7 @@
 
 #include "codec/section.h"
 #include "codec/trace.h"
+#include "gltf_ext/asset_files.h"
 #include "tools/command.h"
 #include "tools/payloads.h"
 

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "gltf_ext/asset_files.h"
 #include "gltf_ext/decompress.h"
 #include "tools/command.h"
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 
+#include "gltf_ext/asset_files.h"
 #include "gltf_ext/files.h"
 #include "tools/import.h"
 #include "tools/payloads.h"

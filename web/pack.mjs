@@ -15,7 +15,7 @@ mkdirSync(output, {recursive: true});
 cpSync(join(web, 'package'), folder, {recursive: true});
 cpSync(join(web, '../LICENSE'), join(folder, 'LICENSE'));
 mkdirSync(join(folder, 'wasm'), {recursive: true});
-for (const name of ['decoder', 'decoder-draco']) {
+for (const name of ['decoder', 'decoder-draco', 'encoder']) {
   const bytes = readFileSync(join(wasmFolder, `${name}.wasm`));
   writeFileSync(join(folder, 'wasm', `${name}.wasm`), bytes);
   writeFileSync(join(folder, 'wasm', `${name}.js`), `export default '${bytes.toString('base64')}';\n`);

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "gltf_ext/accessors.h"
+#include "gltf_ext/asset_files.h"
+#include "gltf_ext/asset_paths.h"
 #include "gltf_ext/buffers.h"
 #include "gltf_ext/files.h"
 #include "gltf_ext/glb.h"

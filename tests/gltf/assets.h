@@ -1,6 +1,7 @@
 #pragma once
 // Small assets for tests, and what two meshes must share to be the same.
 
+#include <filesystem>
 #include <string>
 #include <vector>
 

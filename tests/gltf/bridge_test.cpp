@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "gltf_ext/asset_files.h"
 #include "gltf_ext/tinygltf_bridge.h"
 
 #define TINYGLTF_NO_INCLUDE_STB_IMAGE

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "gltf_ext/asset_files.h"
 #include "gltf_ext/asset_rules.h"
 #include "gltf_ext/decompress.h"
 #include "tests/gltf/assets.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "gltf_ext/asset_files.h"
 #include "tests/tools/scratch.h"
 #include "tools/command.h"
 #include "tools/compare.h"

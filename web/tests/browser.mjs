@@ -18,11 +18,11 @@ export function needBrowser() {
   process.exit(77);
 }
 
-/** A browser and a server. Close both with close(). */
-export async function startBrowser() {
+/** A browser and a server, of more folders if need be. Close both with close(). @param {Record<string, string>} folders */
+export async function startBrowser(folders = {}) {
   const {chromium: engine} = createRequire(join(npm, 'x.js'))('playwright-core');
   const browser = await engine.launch({executablePath: chromium, headless: true, args: flags});
-  const server = await serve({npm, 'tutte-gltf': installed, models: scratch, pages: join(tests, 'pages')});
+  const server = await serve({npm, 'tutte-gltf': installed, models: scratch, pages: join(tests, 'pages'), ...folders});
   const close = async () => {
     await browser.close();
     server.close();
@@ -35,12 +35,12 @@ export async function startBrowser() {
  * @param {{browser: any, server: any}} started
  * @param {string} name
  */
-export async function openPage({browser, server}, name) {
+export async function openPage({browser, server}, name, folder = 'pages') {
   const page = await browser.newPage({viewport: {width: 320, height: 240}});
   /** @type {string[]} */
   const problems = [];
   page.on('pageerror', (/** @type {Error} */ error) => problems.push(String(error)));
-  await page.goto(`${server.url}/pages/${name}`);
+  await page.goto(`${server.url}/${folder}/${name}`);
   try {
     await page.waitForFunction(() => /** @type {any} */ (globalThis).ready, null, {timeout: 60000});
   } catch (error) {
@@ -70,4 +70,11 @@ export function drawn(picture) {
     if (picture[i] !== picture[0] || picture[i + 1] !== picture[1] || picture[i + 2] !== picture[2]) ++count;
   }
   return count;
+}
+
+/** How many different colours there are. @param {number[]} picture */
+export function coloursOf(picture) {
+  const colours = new Set();
+  for (let i = 0; i < picture.length; i += 4) colours.add(picture[i] << 16 | picture[i + 1] << 8 | picture[i + 2]);
+  return colours.size;
 }

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import test from 'node:test';
 
-import {difference, drawn} from './browser.mjs';
+import {coloursOf, difference, drawn} from './browser.mjs';
 import {readGlb, writeGlb} from './glb.mjs';
 import {EXTENSION_NAME} from './names.mjs';
 import {Model} from './models.mjs';
@@ -25,6 +25,7 @@ export function loaderTests({show, models, started, opened, fetchesFallback = fa
       assert.equal(plain.error, undefined);
       assert.equal(compressed.error, undefined);
       assert.ok(drawn(plain.picture) > 1000, 'the plain file draws nothing');
+      assert.ok(coloursOf(plain.picture) > 3, 'the plain file has no shades');
       assert.equal(difference(plain.picture, compressed.picture), 0);
     });
   }

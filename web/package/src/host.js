@@ -9,16 +9,14 @@ export class Host {
     this.instances = new Map();
   }
 
-  /** @param {boolean} draco */
-  async #instance(draco) {
+  /** @param {boolean} draco @returns {Promise<Instance>} */
+  #instance(draco) {
     let instance = this.instances.get(draco);
     if (!instance) {
       instance = this.moduleOf(draco).then((module) => new Instance(module, draco));
       this.instances.set(draco, instance);
     }
-    const ready = await instance;
-    await ready.ready();
-    return ready;
+    return instance;
   }
 
   /**

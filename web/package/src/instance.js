@@ -9,11 +9,11 @@ const notAvailable = -102, notBuilt = -103;
 const dracoCoder = 0;
 
 /** An instance whose memory has grown beyond this is thrown away after use, for memory never shrinks. */
-const mostBytesKept = 64 << 20;
+const mostBytesKept = 256 << 20;
 
 /**
- * One instance of a WebAssembly module, replaced by a fresh one after anything that could have hurt it. Not to be used
- * by two at a time; every method is synchronous once ready() has come.
+ * One instance of a WebAssembly module, replaced by a fresh one after anything that could have hurt it. Every method is
+ * synchronous.
  */
 export class Instance {
   /**
@@ -27,23 +27,21 @@ export class Instance {
     this.exports = null;
   }
 
-  /** Instantiates the module unless that is done. */
-  async ready() {
-    if (this.exports) return;
-    const {exports} = await WebAssembly.instantiate(this.module, {});
+  #start() {
+    const {exports} = new WebAssembly.Instance(this.module, {});
     /** @type {any} */ (exports)._initialize();
-    this.exports ??= exports;
+    this.exports = exports;
   }
 
   /** @param {(exports: any) => any} work */
   #guarded(work) {
-    if (!this.exports) throw new TutteError('NOT_READY', 'the WebAssembly instance is not ready');
     try {
+      if (!this.exports) this.#start();
       return work(this.exports);
     } catch (error) {
       if (error instanceof TutteError) throw error;
       this.exports = null;
-      throw new TutteError('OUT_OF_MEMORY', `TUTTE_mesh_compression: the decoder stopped (${error})`);
+      throw new TutteError('STOPPED', `TUTTE_mesh_compression: the decoder stopped (${error})`);
     } finally {
       if (this.exports && this.exports.memory.buffer.byteLength > mostBytesKept) this.exports = null;
     }

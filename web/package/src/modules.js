@@ -17,11 +17,19 @@ async function compileFrom(url) {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-/** @param {WasmSource} source @returns {Promise<WebAssembly.Module>} */
-async function compile(source) {
+/**
+ * @param {WasmSource} source  a string is a URL
+ * @returns {Promise<WebAssembly.Module>}
+ */
+export async function compile(source) {
   if (source instanceof WebAssembly.Module) return source;
   if (typeof source === 'string' || source instanceof URL) return compileFrom(source);
   return WebAssembly.compile(source);
+}
+
+/** What a file of the folder wasm holds. @param {{default: string}} inlined */
+export function compileInlined(inlined) {
+  return WebAssembly.compile(bytesOf(inlined.default));
 }
 
 /** The two builds of the decoder, each compiled once and only when it is needed. */
@@ -43,6 +51,6 @@ export class Modules {
 
   /** @param {WasmSource | undefined} source @param {() => Promise<{default: string}>} inlined */
   async #load(source, inlined) {
-    return compile(source ?? bytesOf((await inlined()).default));
+    return source === undefined ? compileInlined(await inlined()) : compile(source);
   }
 }

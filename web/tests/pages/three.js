@@ -31,7 +31,13 @@ async function addEdges(gltf) {
   return edges;
 }
 
+/** What glTF calls metal is black without surroundings to reflect. */
+function lighten(root) {
+  for (const mesh of meshesOf(root)) for (const material of [mesh.material].flat()) material.metalness = 0;
+}
+
 function draw(root) {
+  lighten(root);
   const scene = new THREE.Scene();
   scene.background = new THREE.Color(0x203040);
   scene.add(root, new THREE.HemisphereLight(0xffffff, 0x404040, 3));

@@ -1,13 +1,11 @@
-// An asset to files.
+#include "gltf_ext/asset_output.h"
 
 #include <algorithm>
 #include <string>
 
 #include "gltf_ext/accessors.h"
-#include "gltf_ext/asset.h"
 #include "gltf_ext/buffers.h"
 #include "gltf_ext/extension.h"
-#include "gltf_ext/files.h"
 #include "gltf_ext/glb.h"
 #include "gltf_ext/json_access.h"
 #include "gltf_ext/uri.h"
@@ -54,7 +52,8 @@ void embedImages(Asset& asset) {
 
 std::string dumpJson(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-/// The asset with one buffer, and fallback buffers behind it.
+}  // namespace
+
 Outcome<Asset> withOneBuffer(const Asset& asset, bool embed) {
   Asset copy = asset;
   if (embed) embedImages(copy);
@@ -77,54 +76,6 @@ Outcome<Bytes> joinedGlb(const Asset& asset) {
                  has_main ? std::span<const uint8_t>(asset.buffers[0]) : std::span<const uint8_t>());
 }
 
-/// Gives buffers with data file names, except the BIN chunk of a GLB.
-std::vector<NewFile> splitBuffers(Asset& asset, const std::filesystem::path& path, bool is_glb) {
-  std::vector<NewFile> files;
-  for (size_t i = 0; i < asset.buffers.size(); ++i) {
-    if (asset.buffers[i].empty() || (is_glb && isMain(asset, i))) continue;
-    const std::string number = i < 2 ? "" : std::to_string(i);
-    const std::string name = path.stem().string() + (isMain(asset, i) ? ".bin" : ".fallback" + number + ".bin");
-    asset.json["buffers"][i]["uri"] = percentEncode(name);
-    files.push_back({path.parent_path() / name, asset.buffers[i]});
-  }
-  return files;
-}
-
-/// External images, where they are not already.
-Outcome<Done> addImages(const Asset& asset, const std::filesystem::path& folder, std::vector<NewFile>& files) {
-  for (const auto& [uri, bytes] : asset.files) {
-    const auto relative = safeRelativePath(uri, "/images");
-    if (!relative) return relative.error();
-    const auto path = folder / *relative;
-    const auto present = readFile(path);
-    if (!present || *present != bytes) files.push_back({path, bytes});
-  }
-  return Done{};
-}
-
-Outcome<Done> saveGuarded(const Asset& asset, const std::filesystem::path& path) {
-  const bool is_glb = path.extension() == ".glb";
-  if (!is_glb && path.extension() != ".gltf") {
-    return Failure{FailureKind::kUsage, path.string(), "the name must end with .glb or .gltf"};
-  }
-  auto copy = withOneBuffer(asset, is_glb);
-  if (!copy) return copy.error();
-  std::vector<NewFile> files = splitBuffers(*copy, path, is_glb);
-  if (!is_glb) {
-    const auto images = addImages(*copy, path.parent_path(), files);
-    if (!images) return images;
-    const std::string text = copy->json.dump(2, ' ', false, Json::error_handler_t::replace);
-    files.push_back({path, Bytes(text.begin(), text.end())});
-    return writeFiles(files);
-  }
-  auto glb = joinedGlb(*copy);
-  if (!glb) return glb.error();
-  files.push_back({path, *std::move(glb)});
-  return writeFiles(files);
-}
-
-}  // namespace
-
 Outcome<Bytes> toGlb(const Asset& asset) {
   return guarded<Bytes>([&]() -> Outcome<Bytes> {
     auto copy = withOneBuffer(asset, true);
@@ -135,10 +86,6 @@ Outcome<Bytes> toGlb(const Asset& asset) {
     }
     return joinedGlb(*copy);
   });
-}
-
-Outcome<Done> saveAsset(const Asset& asset, const std::filesystem::path& path) {
-  return guarded<Done>([&] { return saveGuarded(asset, path); });
 }
 
 }  // namespace tutte

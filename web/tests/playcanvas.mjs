@@ -1,0 +1,25 @@
+// PlayCanvas in Chromium: what its loader makes of compressed files is what it makes of plain ones.
+//
+//   node playcanvas.mjs TUTTE BUILD_FOLDER
+import {join} from 'node:path';
+import {after, before} from 'node:test';
+
+import {needBrowser, openPage, startBrowser} from './browser.mjs';
+import {loaderTests} from './loader_tests.mjs';
+import {models} from './models.mjs';
+import {need, npm} from './places.mjs';
+
+need(join(npm, 'playcanvas'), join(npm, 'playwright-core'));
+needBrowser();
+
+/** @type {any} */
+let started, opened;
+before(async () => {
+  started = await startBrowser();
+  opened = await openPage(started, 'playcanvas.html');
+});
+after(() => started.close());
+
+const show = (url, decoder) => opened.page.evaluate(([url, decoder]) => globalThis.show(url, decoder), [url, decoder]);
+
+loaderTests({show, models: models(), started: () => started, opened: () => opened});
