@@ -16,6 +16,8 @@ export const npm = join(build, 'web-npm/node_modules');
 export const project = join(build, 'web/project');
 /** The package as installed there. */
 export const installed = join(project, 'node_modules/tutte-gltf');
+/** The page of web/viewer. */
+export const viewer = join(build, 'viewer');
 /** Models of Debian's assimp-testmodels, and of the corpus where it is present. */
 export const assimpModels = process.env.TUTTE_MODELS ?? '/usr/share/assimp/models';
 export const corpus = process.env.TUTTE_CORPUS ?? join(tests, '../../../shared/corpus');

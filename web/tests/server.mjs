@@ -4,7 +4,7 @@ import {createServer} from 'node:http';
 import {extname, join, normalize} from 'node:path';
 
 const types = {'.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm',
-  '.json': 'application/json', '.glb': 'model/gltf-binary', '.gltf': 'model/gltf+json', '.png': 'image/png'};
+  '.json': 'application/json', '.css': 'text/css', '.svg': 'image/svg+xml', '.glb': 'model/gltf-binary', '.gltf': 'model/gltf+json', '.png': 'image/png'};
 
 /**
  * @param {Record<string, string>} folders  name in URLs -> folder
