@@ -27,7 +27,7 @@ class Masked : public PaperStatistics {
 
   template <class Port>
   Index vertex(Port& port, VertexQuestion question, const Gaps& gaps, Index truth) {
-    if (!kValenceContexts) question.face.degree = 6;  // as all that are not 3, 4 or 5
+    if (!kValenceContexts) question.degree = 6;  // as all that are not 3, 4 or 5
     return PaperStatistics::vertex(port, question, gaps, truth);
   }
 
