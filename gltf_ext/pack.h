@@ -46,7 +46,7 @@ struct PackOptions {
   int texcoord_bits = 12;
   int color_bits = 8;
   int generic_bits = 12;               ///< custom float attributes and morph-target deltas of anything but positions
-  ErrorBounds errors;                  ///< where one is given, it decides instead of the bits
+  ErrorBounds errors{};                ///< where one is given, it decides instead of the bits
   std::optional<PositionGrid> grid{};  ///< of POSITION, also of morph targets, instead of position_bits
   AttributeCoder attribute_coder = AttributeCoder::kAuto;
   EncodeOptions connectivity;  ///< profile and effort, which kTutte shares
