@@ -17,8 +17,8 @@ std::vector<uint32_t> siteFloats(const Attribute& attribute, const WedgeSites& w
   const size_t components = attribute.components;
   std::vector<uint32_t> floats(wedges.count * components);
   std::vector<uint8_t> known(wedges.count, 0);
-  for (size_t w = 0; w < wedges.site_of.size(); ++w) {
-    const Index site = wedges.site_of[w];
+  for (size_t w = 0; w < wedgeCount(wedges); ++w) {
+    const Index site = siteOf(wedges, w);
     const uint8_t* const source = &attribute.data[w * attribute.stride()];
     for (size_t c = 0; c < components; ++c) {
       uint32_t& target = floats[site * components + c];
@@ -44,10 +44,10 @@ Outcome<std::vector<uint8_t>> encodeAt(const SiteLayout& layout, const Attribute
 
 void spreadFloats(std::span<const uint32_t> floats, const WedgeSites& wedges, Attribute& attribute) {
   const size_t components = attribute.components;
-  attribute.data.resize(wedges.site_of.size() * attribute.stride());
-  for (size_t w = 0; w < wedges.site_of.size(); ++w) {
+  attribute.data.resize(wedgeCount(wedges) * attribute.stride());
+  for (size_t w = 0; w < wedgeCount(wedges); ++w) {
     for (size_t c = 0; c < components; ++c) {
-      storeBytes(&attribute.data[w * attribute.stride() + 4 * c], 4, floats[wedges.site_of[w] * components + c]);
+      storeBytes(&attribute.data[w * attribute.stride() + 4 * c], 4, floats[siteOf(wedges, w) * components + c]);
     }
   }
 }

@@ -3,93 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <memory>
 #include <optional>
 #include <utility>
 
+#include "gltf_ext/site_layouts.h"
+
 namespace tutte {
 namespace {
-
-/// Where an attribute's values sit.
-struct Layout {
-  WedgeSites wedges;  ///< no entries: every wedge is a site
-  std::optional<ValueGraph> graph;
-};
-
-/// The layouts of one mesh, made when they are first asked for; attributes with equal seams share one.
-class Layouts {
- public:
-  explicit Layouts(const AttributeTopology& topology) : topology_(topology), whole_(whole()) {}
-
-  Layout& get(size_t attribute) {
-    const bool positions = attribute == 0;
-    const std::span<const uint8_t> seams = attribute < topology_.seams.size() ? topology_.seams[attribute] : none_;
-    for (const Entry& entry : entries_) {
-      const bool same = whole_ || (entry.positions == positions && std::ranges::equal(entry.seams, seams));
-      if (same) return *entry.layout;
-    }
-    entries_.push_back({positions, seams, make(positions, seams)});
-    return *entries_.back().layout;
-  }
-
- private:
-  struct Entry {
-    bool positions;
-    std::span<const uint8_t> seams;
-    std::unique_ptr<Layout> layout;
-  };
-
-  // Every vertex has one umbrella and one wedge: all attributes have the same sites.
-  bool whole() const {
-    const Connectivity& mesh = topology_.connectivity;
-    return mesh.vertices.empty() && topology_.wedge_count == mesh.vertex_count &&
-           std::ranges::equal(topology_.wedges, mesh.umbrellas);
-  }
-
-  std::unique_ptr<Layout> make(bool positions, std::span<const uint8_t> seams) const {
-    const Connectivity& mesh = topology_.connectivity;
-    auto layout = std::make_unique<Layout>();
-    layout->wedges = whole_      ? WedgeSites{{}, topology_.wedge_count}
-                     : positions ? joinVertices(mesh, topology_.wedges, topology_.wedge_count)
-                                 : joinWedges(mesh, topology_.wedges, topology_.wedge_count, seams);
-    std::vector<Index> own;
-    std::span<const Index> sites = mesh.umbrellas;
-    if (!whole_) {
-      own.reserve(sites.size());
-      for (const Index wedge : topology_.wedges) own.push_back(layout->wedges.site_of[wedge]);
-      sites = own;
-    }
-    layout->graph.emplace(mesh, sites, layout->wedges.count);
-    return layout;
-  }
-
-  const AttributeTopology& topology_;
-  const bool whole_;
-  const std::span<const uint8_t> none_;
-  std::vector<Entry> entries_;
-};
-
-/// True when all numbers are below a limit, which is below 2^31; with `spare` 1, they may also be kNone.
-bool allBelow(std::span<const Index> numbers, Index limit, Index spare = 0) {
-  Index below = ~0u;  // its top bit; without decisions, so that compilers make vectors of it
-  for (const Index number : numbers) below &= (number + spare - (limit + spare)) & ~(number + spare);
-  return below >> 31 != 0;
-}
-
-bool consistent(const AttributeTopology& topology) {
-  const Connectivity& mesh = topology.connectivity;
-  const size_t corners = mesh.umbrellas.size();
-  uint64_t sum = 0;
-  for (const Index degree : mesh.face_degrees) sum += degree;
-  if (sum != corners || mesh.twins.size() != corners || topology.wedges.size() != corners) return false;
-  if (!allBelow(mesh.umbrellas, mesh.umbrella_count) || !allBelow(topology.wedges, topology.wedge_count)) return false;
-  if (!allBelow(mesh.twins, static_cast<Index>(corners), 1)) return false;
-  if (!allBelow(mesh.vertices, mesh.vertex_count)) return false;
-  if (mesh.vertices.empty() ? mesh.umbrella_count > mesh.vertex_count : mesh.vertices.size() != mesh.umbrella_count) {
-    return false;
-  }
-  return std::ranges::all_of(topology.seams, [&](auto seams) { return seams.empty() || seams.size() == corners; });
-}
 
 // The first byte of a plane's stream: the profile in bits 0 and 1, the kind of its values in bits 2 to 4, then two
 // flags.
@@ -236,13 +156,13 @@ bool readPlane(const ValueSites& sites, const WedgeSites& wedges, ByteReader& in
 
 Outcome<std::vector<uint8_t>> encodeValuePlanes(const AttributeTopology& topology, std::span<const Plane> planes,
                                                 ValueProfile profile) {
-  if (!consistent(topology)) return Failure{FailureKind::kInvalid, "", "the attributes' topology contradicts itself"};
+  if (!isConsistent(topology)) return Failure{FailureKind::kInvalid, "", "the attributes' topology contradicts itself"};
   if (topology.wedge_count == 0) return std::vector<uint8_t>();
-  Layouts layouts(topology);
+  SiteLayouts layouts(topology);
   ByteWriter out;
   for (size_t i = 0; i < planes.size(); ++i) {
     const Plane& plane = planes[i];
-    Layout& layout = layouts.get(plane.attribute);
+    SiteLayout& layout = layouts.get(plane.attribute);
     const std::vector<int32_t> values = siteValues(plane, layout.wedges);
     if (values.empty() && layout.wedges.count > 0) {
       return Failure{FailureKind::kInvalid, "", "an attribute has two values where its seams allow one"};
@@ -254,12 +174,12 @@ Outcome<std::vector<uint8_t>> encodeValuePlanes(const AttributeTopology& topolog
 }
 
 bool decodeValuePlanes(const AttributeTopology& topology, std::span<const uint8_t> bytes, std::span<Plane> planes) {
-  if (!consistent(topology)) return false;
+  if (!isConsistent(topology)) return false;
   if (topology.wedge_count == 0) return bytes.empty();
-  Layouts layouts(topology);
+  SiteLayouts layouts(topology);
   ByteReader in(bytes);
   for (size_t i = 0; i < planes.size(); ++i) {
-    Layout& layout = layouts.get(planes[i].attribute);
+    SiteLayout& layout = layouts.get(planes[i].attribute);
     const std::vector<int32_t> places = placesOf(planes, i, layout.wedges);
     if (!readPlane({*layout.graph, places}, layout.wedges, in, planes[i])) return false;
   }
