@@ -31,12 +31,14 @@ void uncounted(void* memory) {
 }  // namespace
 
 void* operator new(size_t size) { return counted(std::malloc(size)); }
+void* operator new(size_t size, const std::nothrow_t&) noexcept { return counted(std::malloc(size)); }
 void* operator new(size_t size, std::align_val_t alignment) {
   const size_t step = static_cast<size_t>(alignment);
   return counted(std::aligned_alloc(step, (size + step - 1) / step * step));
 }
 void operator delete(void* memory) noexcept { uncounted(memory); }
 void operator delete(void* memory, size_t) noexcept { uncounted(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { uncounted(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { uncounted(memory); }
 void operator delete(void* memory, size_t, std::align_val_t) noexcept { uncounted(memory); }
 
