@@ -23,8 +23,8 @@ Result<WalkedCandidate> walkWith(const Topology& topology, const Candidate& cand
   WalkedCandidate walked;
   walked.header = header;
   walked.connectivity = std::move(walk.connectivity());
-  walked.start_corners = oracle.startCorners();
-  walked.umbrella_order = oracle.umbrellaOrder();
+  walked.order = {oracle.startCorners(), oracle.umbrellaOrder()};
+  walked.components = candidate.components;
   walked.on_boundary = walk.onBoundary();
   walked.dummy_umbrellas = walk.dummyUmbrellas();
   walked.valences = std::move(valences);
@@ -51,23 +51,23 @@ std::vector<Index> expandCorners(const Topology& topology, const std::vector<Ind
 }
 
 Sources primalSources(const Topology& topology, WalkedCandidate& walked) {
-  Sources sources{expandCorners(topology, walked.start_corners), {}, std::move(walked.umbrella_order)};
-  sources.faces.reserve(walked.start_corners.size());
-  for (const Index start : walked.start_corners) sources.faces.push_back(topology.faces.face[start]);
+  Sources sources{expandCorners(topology, walked.order.start_corners), {}, std::move(walked.order.umbrellas)};
+  sources.faces.reserve(walked.order.start_corners.size());
+  for (const Index start : walked.order.start_corners) sources.faces.push_back(topology.faces.face[start]);
   return sources;
 }
 
 Sources dualSources(const DualTopology& dual, const PrimalMesh& primal, const Topology& primal_topology,
                     const WalkedCandidate& walked) {
   Sources sources;
-  const std::vector<Index> dual_corners = expandCorners(dual.topology, walked.start_corners);
+  const std::vector<Index> dual_corners = expandCorners(dual.topology, walked.order.start_corners);
   for (const Index c : primal.dual_corner) sources.corners.push_back(dual.primal_corner[dual_corners[c]]);
   Index first = 0;
   for (const Index degree : primal.connectivity.face_degrees) {
     sources.faces.push_back(primal_topology.faces.face[sources.corners[first]]);
     first += degree;
   }
-  for (const Index start : walked.start_corners) {
+  for (const Index start : walked.order.start_corners) {
     sources.umbrellas.push_back(dual.primal_umbrella[dual.topology.faces.face[start]]);
   }
   return sources;
@@ -144,7 +144,10 @@ Result<Encoded> finishCandidate(TopologyPair& topologies, WalkedCandidate&& walk
     walked.connectivity = std::move(primal->connectivity);
     walked.on_boundary = std::move(primal->on_boundary);
   } else {
-    sources = primalSources(topologies.primal(), walked);
+    const Topology& primal = topologies.primal();
+    const bool joins = primal.vertex_of.size() > mesh.vertex_count;
+    if (joins) orderCopies(primal, walked.components, walked.connectivity, walked.order);
+    sources = primalSources(primal, walked);
   }
   RepairNotes notes = orderFaces(topologies.primal(), sources, mesh, encoded);
   orderVertices(topologies.primal(), sources, mesh, encoded, notes);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "codec/components.h"
+#include "codec/copy_order.h"
 #include "codec/dual.h"
 #include "codec/encode.h"
 #include "codec/range_coder.h"
@@ -22,9 +23,9 @@ struct Candidate {
 /// A candidate's walk: its streams, and which part of the topology came when.
 struct WalkedCandidate {
   SectionHeader header;
-  Connectivity connectivity;          ///< of the walked topology: in a dual, the dual's
-  std::vector<Index> start_corners;   ///< per coded face: the topology's corner where it begins
-  std::vector<Index> umbrella_order;  ///< per coded umbrella: the topology's
+  Connectivity connectivity;  ///< of the walked topology: in a dual, the dual's
+  WalkOrder order;
+  std::vector<ComponentPlan> components;
   std::vector<uint8_t> on_boundary;
   std::vector<Index> dummy_umbrellas;
   RangeWriter valences, degrees;  ///< still open: repairs follow

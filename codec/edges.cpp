@@ -11,23 +11,60 @@ struct HalfEdge {
   Index corner;
 };
 
-// Edges between the same two vertices, opposite directions apart: [begin, middle) run up, [middle, end) run down.
-void pairRun(const HalfEdge* begin, const HalfEdge* end, bool allow_conflicts, EdgePairs& pairs) {
-  const HalfEdge* middle = begin;
-  while (middle != end && (middle->far & 1) == 0) ++middle;
-  const HalfEdge *up = begin, *down = middle;
-  for (; up != middle && down != end; ++up, ++down) {
-    pairs.twin[up->corner] = down->corner;
-    pairs.twin[down->corner] = up->corner;
+// Edges between the same two vertices: `up` run one way, `down` the other, both in corner order.
+struct Run {
+  std::span<const HalfEdge> up, down;
+};
+
+void pairUp(Index a, Index b, EdgePairs& pairs) {
+  pairs.twin[a] = b;
+  pairs.twin[b] = a;
+}
+
+// Do the faces of two opposite edges look like both sides of one face?
+bool areBackToBack(const FaceCorners& faces, Index a, Index b) {
+  const auto beyond = [&](Index corner) { return faces.vertex[faces.next(faces.next(corner))]; };
+  const auto before = [&](Index corner) { return faces.vertex[faces.prev(corner)]; };
+  return beyond(a) == before(b) && before(a) == beyond(b);
+}
+
+// Several sheets meet at an edge. Faces of one sheet are mostly stored close together, and a face is hardly ever glued
+// to its own back: such pairs come last.
+void pairSheets(const FaceCorners& faces, const Run& run, EdgePairs& pairs) {
+  struct Choice {
+    bool back_to_back;
+    Index distance, up, down;
+    auto operator<=>(const Choice&) const = default;
+  };
+  std::vector<Choice> choices;
+  for (const HalfEdge& up : run.up) {
+    for (const HalfEdge& down : run.down) {
+      const Index a = up.corner, b = down.corner;
+      choices.push_back({areBackToBack(faces, a, b), std::max(a, b) - std::min(a, b), a, b});
+    }
   }
-  if (allow_conflicts && end - begin == 2 && (middle == begin || middle == end)) {
-    pairs.twin[begin[0].corner] = begin[1].corner;
-    pairs.twin[begin[1].corner] = begin[0].corner;
-    pairs.conflicts = true;
+  std::sort(choices.begin(), choices.end());
+  for (const Choice& choice : choices) {
+    if (pairs.twin[choice.up] == kNone && pairs.twin[choice.down] == kNone) pairUp(choice.up, choice.down, pairs);
   }
 }
 
-void pairBucket(HalfEdge* begin, HalfEdge* end, bool allow_conflicts, EdgePairs& pairs) {
+constexpr size_t kMostChoices = 256;
+
+void pairRun(const FaceCorners& faces, const Run& run, bool allow_conflicts, EdgePairs& pairs) {
+  const size_t both = std::min(run.up.size(), run.down.size()), choices = run.up.size() * run.down.size();
+  if (choices > 1 && choices <= kMostChoices) {
+    pairSheets(faces, run, pairs);
+  } else {
+    for (size_t i = 0; i < both; ++i) pairUp(run.up[i].corner, run.down[i].corner, pairs);
+  }
+  const std::span<const HalfEdge> alone = run.up.empty() ? run.down : run.up;
+  if (!allow_conflicts || both != 0 || alone.size() != 2) return;
+  pairUp(alone[0].corner, alone[1].corner, pairs);
+  pairs.conflicts = true;
+}
+
+void pairBucket(const FaceCorners& faces, HalfEdge* begin, HalfEdge* end, bool allow_conflicts, EdgePairs& pairs) {
   const auto before = [](const HalfEdge& a, const HalfEdge& b) {
     return a.far != b.far ? a.far < b.far : a.corner < b.corner;
   };
@@ -41,10 +78,10 @@ void pairBucket(HalfEdge* begin, HalfEdge* end, bool allow_conflicts, EdgePairs&
     std::sort(begin, end, before);
   }
   while (begin != end) {
-    HalfEdge* run = begin;
-    while (run != end && run->far >> 1 == begin->far >> 1) ++run;
-    if (run - begin > 1) pairRun(begin, run, allow_conflicts, pairs);
-    begin = run;
+    HalfEdge *middle = begin, *last = begin;
+    while (last != end && last->far >> 1 == begin->far >> 1) middle += (last++->far & 1) == 0;
+    if (last - begin > 1) pairRun(faces, {{begin, middle}, {middle, last}}, allow_conflicts, pairs);
+    begin = last;
   }
 }
 
@@ -74,7 +111,7 @@ EdgePairs pairEdges(const FaceCorners& faces, Index vertex_count, std::span<cons
   pairs.twin.assign(corners, kNone);
   Index begin = 0;
   for (Index v = 0; v < vertex_count; ++v) {
-    pairBucket(edges.data() + begin, edges.data() + bucket_end[v], allow_conflicts, pairs);
+    pairBucket(faces, edges.data() + begin, edges.data() + bucket_end[v], allow_conflicts, pairs);
     begin = bucket_end[v];
   }
   return pairs;

@@ -32,9 +32,10 @@ struct EdgePairs {
   bool conflicts = false;   ///< some paired edges run in the same direction
 };
 
-/// Pairs each edge with another of a different face between the same vertices: opposite ones first, in corner order;
-/// where `allow_conflicts`, also the only two edges between two vertices although they run in the same direction.
-/// Faces marked in `isolated` (may be empty) stay unpaired. O(n log n), and O(n) for meshes.
+/// Pairs each edge with another of a different face between the same vertices: opposite ones first, where there are
+/// several those closest in corner order that are not two sides of one face; where `allow_conflicts`, also the only two
+/// edges between two vertices although they run in the same direction. Faces marked in `isolated` (may be empty) stay
+/// unpaired. O(n log n), and O(n) for meshes.
 EdgePairs pairEdges(const FaceCorners& faces, Index vertex_count, std::span<const uint8_t> isolated,
                     bool allow_conflicts);
 

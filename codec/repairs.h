@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "codec/joins.h"
 #include "codec/mesh.h"
 #include "codec/model.h"
 #include "codec/result.h"
@@ -39,7 +40,8 @@ class RepairCoder {
     mesh_.vertex_count = mesh_.umbrella_count;
     port_.about(Topic::kJoins);
     if (port_.code(kEven, !notes_.vertices.empty())) {
-      if (const Error error = codeVertices(); error != Error::kNone) return error;
+      JoinCoder joins(port_, notes_.vertices, on_boundary_, mesh_);
+      if (const Error error = joins.run(); error != Error::kNone) return error;
     }
     port_.about(Topic::kIsolated);
     const Index isolated = number_.code(port_, notes_.isolated);
@@ -85,34 +87,6 @@ class RepairCoder {
         mesh_.twins.push_back(kNone);
       }
     }
-    return Error::kNone;
-  }
-
-  // Per umbrella: does it belong to a vertex that has one already, and to which? References run on from the last one.
-  Error codeVertices() {
-    std::array<std::array<Bit, 2>, 3> joins;
-    std::array<Bit, 2> backwards;
-    std::array<NumberModel, 2> distance;
-    mesh_.vertices.resize(mesh_.umbrella_count);
-    Index count = 0, expected = 0;
-    bool joined_before = false;
-    for (Index u = 0; u < mesh_.umbrella_count; ++u) {
-      const Index truth = notes_.vertices.empty() ? 0 : notes_.vertices[u];
-      const int kind = u >= on_boundary_.size() ? 2 : on_boundary_[u];
-      const bool joined = count != 0 && joins[kind][joined_before].code(port_, truth != count);
-      if (joined) {
-        const bool back = backwards[joined_before].code(port_, truth < expected);
-        const Index steps = distance[joined_before].code(port_, back ? expected - 1 - truth : truth - expected);
-        const uint64_t vertex = back ? uint64_t{expected} - 1 - steps : uint64_t{expected} + steps;
-        if (vertex >= count) return Error::kMalformed;
-        mesh_.vertices[u] = static_cast<Index>(vertex);
-        expected = mesh_.vertices[u] + 1;
-      } else {
-        mesh_.vertices[u] = count++;
-      }
-      joined_before = joined;
-    }
-    mesh_.vertex_count = count;
     return Error::kNone;
   }
 

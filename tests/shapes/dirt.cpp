@@ -57,6 +57,20 @@ Shape duplicateFaces(bool opposite) {
   return shape;
 }
 
+Shape twoSided(const Shape& shape) {
+  Shape result;
+  result.positions = shape.positions;
+  result.mesh.vertex_count = shape.mesh.vertex_count;
+  auto corner = shape.mesh.corners.begin();
+  for (const Index degree : shape.mesh.face_degrees) {
+    const std::vector<Index> face(corner, corner + degree);
+    result.addFace(face);
+    result.addFace(std::vector<Index>(face.rbegin(), face.rend()));
+    corner += degree;
+  }
+  return result;
+}
+
 Shape repeatedVertex(bool adjacent) {
   Shape shape = quadGrid(3, 3);
   if (adjacent) {

@@ -79,6 +79,8 @@ std::vector<Named> dirtyShapes() {
       {"klein_bottle", kleinBottle(6, 5)},
       {"duplicate_faces", duplicateFaces(false)},
       {"opposite_faces", duplicateFaces(true)},
+      {"two_sided_torus", twoSided(triangleTorus(7, 5))},
+      {"two_sided_sheet", twoSided(perforatedGrid(2, 2))},
       {"repeated_vertex", repeatedVertex(false)},
       {"repeated_vertex_adjacent", repeatedVertex(true)},
       {"small_faces", smallFaces()},

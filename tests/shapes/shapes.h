@@ -115,6 +115,7 @@ Shape orientationConflict();              ///< two triangles that run the same w
 Shape moebiusStrip(Index quads);
 Shape kleinBottle(Index columns, Index rows);
 Shape duplicateFaces(bool opposite);            ///< a tetrahedron with one face twice
+Shape twoSided(const Shape& shape);             ///< every face has a back, stored after it
 Shape repeatedVertex(bool adjacent);            ///< faces with a vertex twice, among others
 Shape smallFaces();                             ///< faces of degree 0, 1 and 2 beside a quad
 Shape isolatedVertices();                       ///< a cube with vertices before, among and after its own

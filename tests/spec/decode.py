@@ -128,26 +128,68 @@ def read_flips(stream, mesh):
         corner += degree
 
 
+def neighbours_of(mesh):
+    """Per umbrella: the umbrellas at the far ends of its edges."""
+    neighbours = [[] for _ in range(mesh.umbrella_count)]
+    first = 0
+    for degree in mesh.degrees:
+        for corner in range(first, first + degree):
+            if mesh.twins[corner] is None or mesh.twins[corner] > corner:
+                ends = mesh.umbrellas[corner], mesh.umbrellas[first + (corner + 1 - first) % degree]
+                neighbours[ends[0]].append(ends[1])
+                neighbours[ends[1]].append(ends[0])
+        first += degree
+    return neighbours
+
+
+def join_candidates(u, neighbours, vertices, umbrellas_of):
+    """Vertices that umbrella u may belong to, with their votes, likeliest first."""
+    votes = {}
+    near = [w for w in neighbours[u][:8] if w < u]
+    for w in near:
+        for x in umbrellas_of[vertices[w]][:-4:-1]:
+            for y in neighbours[x][:12] if x != w else []:
+                if y < u and (vertices[y] in votes or len(votes) < 16):
+                    votes[vertices[y]] = votes.get(vertices[y], 0) + 1
+    for w in near:
+        votes.pop(vertices[w], None)
+        if len(neighbours[u]) == 2 and len(votes) < 16:
+            votes[vertices[w]] = 100
+    return sorted(votes.items(), key=lambda candidate: (-candidate[1], len(umbrellas_of[candidate[0]])))
+
+
 def read_vertices(stream, mesh, on_boundary, walk_umbrellas):
-    join = [[Bit(), Bit()] for _ in range(3)]
-    backwards, distance = [Bit(), Bit()], [Number(), Number()]
-    known = expected = before = 0
+    join = [[[Bit() for _ in range(4)] for _ in range(2)] for _ in range(3)]
+    hit = [[Bit() for _ in range(6)] for _ in range(4)]
+    backwards, distance = [Bit() for _ in range(3)], [Number() for _ in range(3)]
+    neighbours, umbrellas_of = neighbours_of(mesh), []
+    expected = expected_start = before = 0
     for u in range(mesh.umbrella_count):
+        starts = not any(w < u for w in neighbours[u][:8])
         kind = 2 if u >= walk_umbrellas else int(u in on_boundary)
-        joined = join[kind][before].read(stream) if known > 0 else 0
+        candidates = join_candidates(u, neighbours, mesh.vertices, umbrellas_of)
+        evidence = (3 if len(neighbours[u]) == 2 else min(candidates[0][1], 2)) if candidates else 0
+        joined = join[kind][before][evidence].read(stream) if umbrellas_of else 0
         if joined:
-            if backwards[before].read(stream):
-                vertex = expected - 1 - distance[before].read(stream)
+            for rank, (vertex, _) in enumerate(candidates[:6]):
+                if hit[evidence][rank].read(stream):
+                    break
             else:
-                vertex = expected + distance[before].read(stream)
-            require(0 <= vertex < known, 'an umbrella of a vertex to come')
+                context, base = (2, expected_start) if starts else (before, expected)
+                if backwards[context].read(stream):
+                    vertex = base - 1 - distance[context].read(stream)
+                else:
+                    vertex = base + distance[context].read(stream)
+            require(0 <= vertex < len(umbrellas_of), 'an umbrella of a vertex to come')
             mesh.vertices[u] = vertex
             expected = vertex + 1
+            expected_start = vertex if starts else expected_start
         else:
-            mesh.vertices[u] = known
-            known += 1
+            mesh.vertices[u] = len(umbrellas_of)
+            umbrellas_of.append([])
+        umbrellas_of[mesh.vertices[u]].append(u)
         before = joined
-    mesh.vertex_count = known
+    mesh.vertex_count = len(umbrellas_of)
 
 
 def decode(data, trace=None):

@@ -1,0 +1,189 @@
+#pragma once
+// The join list: which umbrellas share a vertex. Written once for both directions.
+//
+// Where sheets of a surface meet, they mostly do so along edges: so the neighbours of an umbrella and the other
+// umbrellas of these neighbours' vertices suggest which vertex it belongs to.
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "codec/mesh.h"
+#include "codec/model.h"
+#include "codec/result.h"
+#include "codec/umbrella_neighbors.h"
+
+namespace tutte {
+
+/// The vertices that an umbrella may belong to, likeliest first.
+class JoinCandidates {
+ public:
+  explicit JoinCandidates(const Connectivity& mesh)
+      : mesh_(mesh), neighbors_(mesh), sibling_(mesh.umbrella_count, kNone) {}
+
+  /// Looks around an umbrella; all before it are known. O(1).
+  void gather(Index umbrella) {
+    found_ = 0;
+    starts_ = true;
+    const std::span<const Index> neighbors = atMost(neighbors_.of(umbrella), kMostNeighbors);
+    lone_ = neighbors.size() == 2;
+    for (const Index neighbor : neighbors) {
+      if (neighbor >= umbrella) continue;
+      starts_ = false;
+      look(umbrella, neighbor);
+    }
+    for (const Index neighbor : neighbors) {
+      if (neighbor < umbrella) settle(mesh_.vertices[neighbor]);
+    }
+    std::stable_sort(candidates_.begin(), candidates_.begin() + found_, [&](const Candidate& a, const Candidate& b) {
+      return a.votes != b.votes ? a.votes > b.votes : umbrellas_[a.vertex] < umbrellas_[b.vertex];
+    });
+  }
+
+  int count() const { return std::min(found_, kMostRanks); }
+  Index vertex(int rank) const { return candidates_[rank].vertex; }
+
+  /// 0: no candidate; 1: one neighbour suggests the likeliest; 2: several do;
+  /// 3: its face may be alone.
+  int evidence() const { return found_ == 0 ? 0 : lone_ ? 3 : candidates_[0].votes == 1 ? 1 : 2; }
+
+  /// No neighbour comes before it.
+  bool starts() const { return starts_; }
+
+  /// An umbrella's vertex is known.
+  void learn(Index umbrella) {
+    const Index vertex = mesh_.vertices[umbrella];
+    if (vertex == last_.size()) {
+      last_.push_back(umbrella);
+      umbrellas_.push_back(1);
+    } else {
+      ++umbrellas_[vertex];
+      sibling_[umbrella] = last_[vertex];
+      last_[vertex] = umbrella;
+    }
+  }
+
+  static constexpr int kMostRanks = 6;
+
+ private:
+  static constexpr size_t kMostNeighbors = 8, kMostRing = 12;
+  static constexpr int kMostSiblings = 3, kMostCandidates = 16, kOwn = 100;
+
+  struct Candidate {
+    Index vertex;
+    int votes;
+  };
+
+  static std::span<const Index> atMost(std::span<const Index> list, size_t count) {
+    return list.first(std::min(list.size(), count));
+  }
+
+  // The neighbours of the other umbrellas of a neighbour's vertex.
+  void look(Index umbrella, Index neighbor) {
+    Index sibling = last_[mesh_.vertices[neighbor]];
+    for (int i = 0; i < kMostSiblings && sibling != kNone; ++i, sibling = sibling_[sibling]) {
+      if (sibling == neighbor) continue;
+      for (const Index far : atMost(neighbors_.of(sibling), kMostRing)) {
+        if (far < umbrella) vote(mesh_.vertices[far]);
+      }
+    }
+  }
+
+  void vote(Index vertex) {
+    for (int i = 0; i < found_; ++i) {
+      if (candidates_[i].vertex != vertex) continue;
+      ++candidates_[i].votes;
+      return;
+    }
+    if (found_ < kMostCandidates) candidates_[found_++] = {vertex, 1};
+  }
+
+  // A face hardly ever visits a vertex twice, and if it does, it is alone.
+  void settle(Index vertex) {
+    const auto end = std::remove_if(candidates_.begin(), candidates_.begin() + found_,
+                                    [&](const Candidate& candidate) { return candidate.vertex == vertex; });
+    found_ = static_cast<int>(end - candidates_.begin());
+    if (lone_ && found_ < kMostCandidates) candidates_[found_++] = {vertex, kOwn};
+  }
+
+  const Connectivity& mesh_;
+  UmbrellaNeighbors neighbors_;
+  std::vector<Index> last_;       // per vertex: its last umbrella
+  std::vector<Index> umbrellas_;  // per vertex: how many it has
+  std::vector<Index> sibling_;    // per umbrella: the one before it at its vertex
+  std::array<Candidate, kMostCandidates> candidates_;
+  int found_ = 0;
+  bool lone_ = false, starts_ = false;
+};
+
+template <class Port>
+class JoinCoder {
+ public:
+  /// `mesh` has everything but its vertices; `on_boundary` says which of its umbrellas a dummy face touches, and ends
+  /// where the umbrellas of faces of degree below 3 begin. `truth`: per umbrella its vertex; a decoder passes nothing.
+  JoinCoder(Port& port, std::span<const Index> truth, std::span<const uint8_t> on_boundary, Connectivity& mesh)
+      : port_(port), truth_(truth), on_boundary_(on_boundary), mesh_(mesh), candidates_(mesh) {}
+
+  /// Per umbrella: does it belong to a vertex that has one already, and to which? O(corners).
+  Error run() {
+    mesh_.vertices.resize(mesh_.umbrella_count);
+    for (Index u = 0; u < mesh_.umbrella_count; ++u) {
+      const Index truth = truth_.empty() ? 0 : truth_[u];
+      candidates_.gather(u);
+      const bool joined = count_ != 0 && isJoined(u).code(port_, truth != count_);
+      const Index vertex = joined ? codeVertex(truth) : count_++;
+      if (vertex >= count_) return Error::kMalformed;
+      mesh_.vertices[u] = vertex;
+      candidates_.learn(u);
+      if (joined) expect(vertex);
+      joined_before_ = joined;
+    }
+    mesh_.vertex_count = count_;
+    return Error::kNone;
+  }
+
+ private:
+  Bit& isJoined(Index umbrella) {
+    const int kind = umbrella >= on_boundary_.size() ? 2 : on_boundary_[umbrella];
+    return joins_[kind][joined_before_][candidates_.evidence()];
+  }
+
+  // References run on from the last one; those of components, from the last component's.
+  void expect(Index vertex) {
+    expected_ = vertex + 1;
+    if (candidates_.starts()) expected_start_ = vertex;
+  }
+
+  Index codeVertex(Index truth) {
+    const int evidence = candidates_.evidence();
+    for (int rank = 0; rank < candidates_.count(); ++rank) {
+      if (hits_[evidence][rank].code(port_, truth == candidates_.vertex(rank))) return candidates_.vertex(rank);
+    }
+    return codeFar(truth);
+  }
+
+  Index codeFar(Index truth) {
+    const int context = candidates_.starts() ? 2 : joined_before_;
+    const Index expected = candidates_.starts() ? expected_start_ : expected_;
+    const bool back = backwards_[context].code(port_, truth < expected);
+    const Index steps = distance_[context].code(port_, back ? expected - 1 - truth : truth - expected);
+    const uint64_t vertex = back ? uint64_t{expected} - 1 - steps : uint64_t{expected} + steps;
+    return static_cast<Index>(std::min(vertex, uint64_t{kNone}));
+  }
+
+  Port& port_;
+  std::span<const Index> truth_;
+  std::span<const uint8_t> on_boundary_;
+  Connectivity& mesh_;
+  JoinCandidates candidates_;
+  std::array<std::array<std::array<Bit, 4>, 2>, 3> joins_;
+  std::array<std::array<Bit, JoinCandidates::kMostRanks>, 4> hits_;
+  std::array<Bit, 3> backwards_;
+  std::array<NumberModel, 3> distance_;
+  Index count_ = 0;                          // vertices so far
+  Index expected_ = 0, expected_start_ = 0;  // where the next references are expected to go
+  bool joined_before_ = false;
+};
+
+}  // namespace tutte
