@@ -41,7 +41,7 @@ class Stencil {
     within_ = false;
     error_sum_.fill(0);
     sum_.fill(0);
-    graph_.forCorners(site, [&](Index corner) { visit(corner); });
+    for (const Index corner : graph_.corners(site)) visit(corner);
     settle();
   }
 

@@ -8,22 +8,28 @@
 #include <cstdint>
 #include <vector>
 
+#include "codec/value_expectation.h"
 #include "codec/value_lanes.h"
 #include "codec/value_model.h"
 
 namespace tutte::values {
 
-/// A distribution that learns; the last lane, which is 0 in all distributions, counts what was seen.
-class Habit {
+/// Distributions that learn, each from a prior.
+class Habits {
  public:
-  Habit() = default;
-  explicit Habit(const Distribution& prior) : distribution_(prior) {}
+  /// `prior(i)` gives the prior of habit i.
+  template <class Prior>
+  Habits(uint32_t count, Prior prior) : seen_(count, 0) {
+    distributions_.reserve(count);
+    for (uint32_t i = 0; i < count; ++i) distributions_.push_back(prior(i));
+  }
 
-  const Distribution& distribution() const { return distribution_; }
+  const Distribution& operator[](uint32_t habit) const { return distributions_[habit]; }
 
-  void learn(int symbol) {
-    approach(distribution_, kTargets[symbol], kRates[seen_]);
-    seen_ += seen_ < kLimit;
+  void learn(uint32_t habit, int symbol) {
+    uint8_t& seen = seen_[habit];
+    approach(distributions_[habit], kTargets[symbol], kRates[seen]);
+    seen = static_cast<uint8_t>(seen + (seen < kLimit));
   }
 
  private:
@@ -48,8 +54,8 @@ class Habit {
     return rates;
   }();
 
-  Distribution distribution_;
-  uint32_t seen_ = 0;
+  std::vector<Distribution> distributions_;
+  std::vector<uint8_t> seen_;  // how many symbols, at most kLimit
 };
 
 /// Residuals in classes: 0, 1, 2, 3, 4 to 5, 6 to 7, 8 to 11, 12 to 15 and so on, two for each bit length.
@@ -59,7 +65,7 @@ inline int classOf(uint32_t magnitude) {
   return 2 * (length - 1) + static_cast<int>(magnitude >> (length - 2) & 1);
 }
 
-/// With large residuals the lowest classes are one: all magnitudes below 2^shift. Level as in ResidualContext.
+/// With large residuals the lowest classes are one: all magnitudes below 2^shift. Level as in Expectation.
 constexpr int shiftOf(int level) { return level < 28 ? 0 : (level - 24) >> 2; }
 
 /// Expected sizes of residuals, in steps of half an octave (half a level).
@@ -90,26 +96,21 @@ inline constexpr std::array<Distribution, kScales> kPriors = [] {
   return priors;
 }();
 
-template <int kContexts>
+/// One context (`two` false) or two. Few habits, because small meshes visit each of them seldom.
 class ClassCoder {
  public:
-  static constexpr int kInputs = kContexts;
-
-  ClassCoder() {
-    habits_.reserve(kScales * kRows);
-    for (uint32_t line = 0; line < kScales * kRows; ++line) habits_.emplace_back(kPriors[line / kRows]);
-    if constexpr (kContexts == 1) return;
-    seconds_.reserve(kSeconds);
-    for (uint32_t line = 0; line < kSeconds; ++line) seconds_.emplace_back(kPriors[line % 16 * 2]);
-  }
+  explicit ClassCoder(bool two)
+      : two_(two),
+        firsts_(kScales * kRows, [](uint32_t i) { return kPriors[i / kRows]; }),
+        seconds_(two ? kSeconds : 0, [](uint32_t i) { return kPriors[i % 16 * 2]; }) {}
 
   template <class Port>
-  [[gnu::always_inline]] int64_t code(Port& port, const ResidualContext& context, int64_t residual) {
+  [[gnu::always_inline]] int64_t code(Port& port, const Expectation& about, int64_t residual) {
     const auto magnitude = static_cast<uint32_t>(residual < 0 ? -residual : residual);
-    const int shift = shiftOf(context.level);
+    const int level = about.level(), shift = shiftOf(level);
     const int first = shift == 0 ? 0 : 2 * shift - 1;
     const int value_class = std::max(classOf(magnitude) - first, 0);
-    int symbol = codeSymbol(port, context, std::min(value_class, kSymbols - 1));
+    int symbol = codeSymbol(port, about, level, std::min(value_class, kSymbols - 1));
     uint32_t decoded;
     if (symbol == 0) {
       if (shift == 0) return 0;
@@ -123,7 +124,7 @@ class ClassCoder {
       }
       decoded = codeDigits(port, symbol + first, magnitude);
     }
-    Chance& sign = signs_[(context.sign * 3 + context.component) * 4 + std::min(symbol, 3)];
+    Chance& sign = signs_[static_cast<size_t>((about.sign * 3 + about.rank) * 4 + std::min(symbol, 3))];
     const bool negative = sign.code(port, residual < 0);
     return negative ? -int64_t{decoded} : int64_t{decoded};
   }
@@ -133,18 +134,20 @@ class ClassCoder {
   static constexpr int kMostClass = 59;  // of residuals below 2^30
 
   template <class Port>
-  int codeSymbol(Port& port, const ResidualContext& context, int symbol) {
-    Habit& first = habits_[context.line[0]];
-    if constexpr (kContexts == 1) {
-      symbol = port.symbol(first.distribution(), symbol);
+  int codeSymbol(Port& port, const Expectation& about, int level, int symbol) {
+    const auto scale = static_cast<uint32_t>(level);
+    const uint32_t first = (scale / 2 * 3 + static_cast<uint32_t>(about.rank)) * 4 + about.members;
+    if (!two_) {
+      symbol = port.symbol(firsts_[first], symbol);
     } else {
-      Habit& second = seconds_[context.line[1]];
+      const uint32_t second =
+          (about.relative(about.spread, level, -7, 7) * 6 + about.relative(about.near, level, -3, 2)) * 16 + scale / 4;
       Distribution both;
-      blend(first.distribution(), second.distribution(), 32767, both);
+      blend(firsts_[first], seconds_[second], 32767, both);
       symbol = port.symbol(both, symbol);
-      second.learn(symbol);
+      seconds_.learn(second, symbol);
     }
-    first.learn(symbol);
+    firsts_.learn(first, symbol);
     return symbol;
   }
 
@@ -156,7 +159,8 @@ class ClassCoder {
     return leading << rest | port.bits(rest, magnitude & ((1u << rest) - 1));
   }
 
-  std::vector<Habit> habits_, seconds_;
+  const bool two_;
+  Habits firsts_, seconds_;
   std::array<Chance, kSigns * 3 * 4> signs_;
   std::array<Chance, 8> longer_;
 };

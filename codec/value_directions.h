@@ -15,12 +15,13 @@ namespace tutte::values {
 
 /// The normals that the surface itself has at its sites, in the ways in which programs average those of the faces.
 enum Weighting { kEven, kByAngle, kByArea, kWeightings };
-using SurfaceNormals = std::array<Vector3, kWeightings>;  ///< each of length 2^kUnitBits, or 0
+using SurfaceNormals = std::array<std::array<int16_t, 3>, kWeightings>;  ///< each of length 2^kUnitBits, or 0
 
 /// Sums over the faces around each site. `places` are those of ValueSites. O(corners).
 inline std::vector<SurfaceNormals> surfaceNormals(const ValueGraph& graph, Places places) {
   constexpr int64_t kMostArea = int64_t{1} << 61;
-  std::vector<SurfaceNormals> sums(graph.siteCount(), SurfaceNormals{});
+  using Sums = std::array<Vector3, kWeightings>;
+  std::vector<Sums> sums(graph.siteCount(), Sums{});
   for (Index begin = 0, end; begin < graph.cornerCount(); begin = end) {
     for (end = begin + 1; graph.next(end - 1) == end; ++end) {
     }
@@ -36,7 +37,7 @@ inline std::vector<SurfaceNormals> surfaceNormals(const ValueGraph& graph, Place
       const Index site = graph.site(c);
       const int64_t turn =
           angle(places.between(site, graph.site(graph.next(c))), places.between(site, graph.site(graph.prev(c))));
-      SurfaceNormals& sum = sums[site];
+      Sums& sum = sums[site];
       for (int i = 0; i < 3; ++i) {
         sum[kEven][i] += even[i];
         sum[kByAngle][i] += even[i] * turn;
@@ -44,95 +45,95 @@ inline std::vector<SurfaceNormals> surfaceNormals(const ValueGraph& graph, Place
       }
     }
   }
-  for (SurfaceNormals& sum : sums) {
-    for (Vector3& normal : sum) normal = unit(normal);
+  std::vector<SurfaceNormals> normals(sums.size());
+  for (size_t site = 0; site < sums.size(); ++site) {
+    for (int k = 0; k < kWeightings; ++k) {
+      const Vector3 normal = unit(sums[site][k]);
+      for (int i = 0; i < 3; ++i) normals[site][k][i] = static_cast<int16_t>(normal[i]);
+    }
   }
-  return sums;
+  return normals;
 }
 
 /// Directions: one of the surface's normals, the same with the neighbours' deviation from theirs, or the neighbours'
 /// mean direction: whichever was best at the neighbours. Where directions point into the surface, so do predictions.
 class DirectionGuide {
  public:
+  static constexpr bool kWantsEdges = false;
+
   /// Without places (an empty span), only the neighbours count. `max` is twice the octahedron's centre.
   DirectionGuide(const ValueGraph& graph, const Nodes<2>& nodes, std::span<const int32_t> places, int32_t max)
-      : graph_(graph), nodes_(nodes), states_(graph.siteCount()), centre_(max / 2) {
-    if (places.empty()) return;
-    const std::vector<SurfaceNormals> surface = surfaceNormals(graph, Places(places));
-    for (Index site = 0; site < graph.siteCount(); ++site) {
-      for (int k = 0; k < kWeightings; ++k) {
-        for (int i = 0; i < 3; ++i) states_[site].surface[k][i] = static_cast<int16_t>(surface[site][k][i]);
-      }
-    }
+      : nodes_(nodes), states_(graph.siteCount()), centre_(max / 2) {
+    if (!places.empty()) surface_ = surfaceNormals(graph, Places(places));
   }
 
-  void refine(Index site, Stencil<2, int32_t>& stencil) {
+  void refine(const Surroundings& around, Stencil<2, int32_t>& stencil) {
     std::array<int64_t, kCandidates> errors{};
     Vector3 sum{}, deviation{};
-    int64_t count = 0, inward = 0;
-    const auto weigh = [&](Index neighbour) {
-      if (!nodes_.known(neighbour)) return;
+    const auto count = static_cast<int64_t>(around.neighbours.size());
+    int64_t inward = 0;
+    for (const Index neighbour : around.neighbours) {
       const State& state = states_[neighbour];
       for (int k = 0; k < kCandidates; ++k) errors[k] += state.errors[k];
       for (int i = 0; i < 3; ++i) {
         sum[i] += state.direction[i];
-        deviation[i] += state.direction[i] - state.surface[kEven][i];
+        deviation[i] += state.deviation[i];
       }
       inward += state.inward;
-      ++count;
-    };
-    graph_.forCorners(site, [&](Index corner) {
-      weigh(graph_.site(graph_.next(corner)));
-      const Index prev = graph_.prev(corner);
-      if (graph_.twin(prev) == kNone) weigh(graph_.site(prev));
-    });
-    turn(states_[site], count > 0 ? 2 * inward > count : last_inward_);
-    predict(states_[site], sum, deviation, count, stencil.base);
-    if (count > 0 || surfaceOf(states_[site], kEven) != Vector3{}) choose(errors, stencil);
+    }
+    if (!surface_.empty()) here_ = surface_[around.site];
+    inward_ = count > 0 ? 2 * inward > count : last_inward_;
+    if (inward_) turnRound();
+    predict(sum, deviation, count, stencil.base);
+    if (count > 0 || normalOf(here_, kEven) != Vector3{}) choose(errors, stencil);
   }
 
-  void learn(Index site, const std::array<int32_t, 2>& value) {
-    State& state = states_[site];
+  void learn(Index, const std::array<int32_t, 2>& value) {
+    State& state = states_[nodes_.count() - 1];
     const Vec<2, int32_t> truth = {value[0] << kFraction, value[1] << kFraction};
     for (int k = 0; k < kCandidates; ++k) state.errors[k] = static_cast<uint32_t>(distance(truth, bases_[k]));
     const Vector3 direction = fromOctahedron(value[0], value[1], centre_);
-    for (int i = 0; i < 3; ++i) state.direction[i] = static_cast<int16_t>(direction[i]);
-    const int64_t along = dot(direction, surfaceOf(state, kEven));
-    if (along < 0) turn(state, !state.inward);
-    if (along != 0) last_inward_ = state.inward;
+    const int64_t along = dot(direction, normalOf(here_, kEven));
+    if (along < 0) {
+      inward_ = !inward_;
+      turnRound();
+    }
+    if (along != 0) last_inward_ = inward_;
+    state.inward = inward_;
+    for (int i = 0; i < 3; ++i) {
+      state.direction[i] = static_cast<int16_t>(direction[i]);
+      state.deviation[i] = static_cast<int32_t>(direction[i]) - here_[kEven][i];
+    }
   }
 
  private:
   enum Candidate { kDeviating = kWeightings, kNeighbourMean, kCandidates };
 
   struct State {
-    std::array<std::array<int16_t, 3>, kWeightings> surface{};  ///< on the side on which the direction is
     std::array<int16_t, 3> direction{};
-    bool inward = false;  ///< the surface's normals were turned round
+    bool inward = false;                 ///< the surface's normals were turned round
+    std::array<int32_t, 3> deviation{};  ///< of the direction from the surface's normal
     std::array<uint32_t, kCandidates> errors{};
   };
 
-  static Vector3 surfaceOf(const State& state, int weighting) {
-    const std::array<int16_t, 3>& normal = state.surface[weighting];
+  static Vector3 normalOf(const SurfaceNormals& normals, int weighting) {
+    const std::array<int16_t, 3>& normal = normals[weighting];
     return {normal[0], normal[1], normal[2]};
   }
 
-  static void turn(State& state, bool inward) {
-    if (state.inward == inward) return;
-    state.inward = inward;
-    for (auto& normal : state.surface) {
+  void turnRound() {
+    for (auto& normal : here_) {
       for (int16_t& x : normal) x = static_cast<int16_t>(-x);
     }
   }
 
-  void predict(const State& state, const Vector3& sum, const Vector3& deviation, int64_t count,
-               const Vec<2, int32_t>& fallback) {
+  void predict(const Vector3& sum, const Vector3& deviation, int64_t count, const Vec<2, int32_t>& fallback) {
     bases_.fill(fallback);
     for (int k = 0; k < kWeightings; ++k) {
-      const Vector3 normal = surfaceOf(state, k);
+      const Vector3 normal = normalOf(here_, k);
       project(k, normal == Vector3{} ? sum : normal);
     }
-    Vector3 deviating = surfaceOf(state, kEven);
+    Vector3 deviating = normalOf(here_, kEven);
     for (int i = 0; i < 3 && count > 0; ++i) deviating[i] += deviation[i] / count;
     project(kDeviating, deviating);
     project(kNeighbourMean, count > 0 ? sum : deviating);
@@ -158,12 +159,16 @@ class DirectionGuide {
     }
   }
 
-  const ValueGraph& graph_;
   const Nodes<2>& nodes_;
-  std::vector<State> states_;
+  std::vector<SurfaceNormals> surface_;  // by site; empty: unknown
+  std::vector<State> states_;            // by rank
   const int64_t centre_;
   bool last_inward_ = false;
-  std::array<Vec<2, int32_t>, kCandidates> bases_{};  // of the current site
+
+  // Of the current site.
+  SurfaceNormals here_{};  // on the side on which the direction is
+  bool inward_ = false;
+  std::array<Vec<2, int32_t>, kCandidates> bases_{};
 };
 
 }  // namespace tutte::values

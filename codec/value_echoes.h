@@ -9,7 +9,7 @@
 
 #include "codec/value_graph.h"
 #include "codec/value_model.h"
-#include "codec/value_stencil.h"
+#include "codec/value_nodes.h"
 
 namespace tutte::values {
 
@@ -19,15 +19,15 @@ namespace tutte::values {
 template <int C>
 class Echoes {
  public:
-  Echoes(const ValueGraph& graph, const Nodes<C>& nodes)
+  Echoes(const ValueGraph& graph, const Nodes<C>& nodes, int components)
       : graph_(graph),
         nodes_(nodes),
+        components_(components),
         shift_(32 - std::min(static_cast<int>(std::bit_width(graph.siteCount())) + 2, 28)),
         last_(size_t{1} << (32 - shift_), kNone),
-        same_(graph.siteCount(), kNone),
-        places_(graph.siteCount(), 0) {}
+        same_(graph.siteCount(), kNone) {}
 
-  /// The earlier site that has the value of this one, or kNone. A writer looks for `value`.
+  /// The rank of the earlier site that has the value of this one, or kNone. A writer looks for `value`.
   template <class Port>
   Index code(Port& port, Index site, bool has_neighbours, const Vec<C, int32_t>& value) {
     if (!has_neighbours) return codePlace(port, value);
@@ -38,13 +38,13 @@ class Echoes {
     return same ? candidate : kNone;
   }
 
-  /// A site's value is known.
+  /// A site's value is known: the last one that nodes have.
   void learn(Index site) {
-    Index& last = last_[slotOf(nodes_[site].value)];
-    if (last != kNone && nodes_[last].value == nodes_[site].value) same_[site] = last;
-    last = site;
-    places_[site] = static_cast<Index>(coded_.size());
-    coded_.push_back(site);
+    const auto rank = static_cast<Index>(sites_.size());
+    Index& last = last_[slotOf(nodes_[rank].value)];
+    if (last != kNone && nodes_[last].value == nodes_[rank].value) same_[rank] = last;
+    last = rank;
+    sites_.push_back(site);
   }
 
  private:
@@ -52,45 +52,44 @@ class Echoes {
 
   size_t slotOf(const Vec<C, int32_t>& value) const {
     uint32_t hash = 0;
-    for (int i = 0; i < C; ++i) hash = (hash ^ static_cast<uint32_t>(value[i])) * 0x9E3779B1u + 0x7F4A7C15u;
+    for (int i = 0; i < components_; ++i) hash = (hash ^ static_cast<uint32_t>(value[i])) * 0x9E3779B1u + 0x7F4A7C15u;
     return (hash ^ hash >> 15) * 0x85EBCA6Bu >> shift_;
   }
 
   Index candidateFor(Index site) const {
-    Index found = kNone;
-    graph_.forCorners(site, [&](Index corner) {
+    for (const Index corner : graph_.corners(site)) {
       const Index prev = graph_.prev(corner);
-      if (found == kNone && graph_.twin(corner) == kNone) found = beside(graph_.site(graph_.next(corner)), true);
+      Index found = kNone;
+      if (graph_.twin(corner) == kNone) found = beside(graph_.site(graph_.next(corner)), true);
       if (found == kNone && graph_.twin(prev) == kNone) found = beside(graph_.site(prev), false);
-    });
-    return found;
+      if (found != kNone) return found;
+    }
+    return kNone;
   }
 
   // The other boundary runs the other way: `onwards`, from a site that has the value of `neighbour` to the candidate,
   // otherwise from the candidate to it.
   Index beside(Index neighbour, bool onwards) const {
     if (!nodes_.known(neighbour)) return kNone;
-    Index found = kNone, same = same_[neighbour];
-    for (int i = 0; i < kMostSame && same != kNone && found == kNone; ++i, same = same_[same]) {
-      graph_.forCorners(same, [&](Index corner) {
+    Index same = same_[nodes_.rankOf(neighbour)];
+    for (int i = 0; i < kMostSame && same != kNone; ++i, same = same_[same]) {
+      for (const Index corner : graph_.corners(sites_[same])) {
         const Index edge = onwards ? corner : graph_.prev(corner);
-        if (found != kNone || graph_.twin(edge) != kNone) return;
-        found = ifKnown(graph_.site(onwards ? graph_.next(corner) : edge));
-      });
+        const Index candidate = graph_.site(onwards ? graph_.next(corner) : edge);
+        if (graph_.twin(edge) == kNone && nodes_.known(candidate)) return nodes_.rankOf(candidate);
+      }
     }
-    return found;
+    return kNone;
   }
-
-  Index ifKnown(Index site) const { return nodes_.known(site) ? site : kNone; }
 
   // How many sites ago: the number of binary digits of that, one by one, and the digits.
   template <class Port>
   Index codePlace(Port& port, const Vec<C, int32_t>& value) {
-    const auto coded = static_cast<Index>(coded_.size());
+    const auto coded = static_cast<Index>(sites_.size());
     Index ago = 0;
     if constexpr (Port::kWriting) {
       const Index last = last_[slotOf(value)];
-      if (last != kNone && nodes_[last].value == value) ago = coded - places_[last];
+      if (last != kNone && nodes_[last].value == value) ago = coded - last;
     }
     const int digits = std::bit_width(ago), most = std::bit_width(coded);
     int length = 0;
@@ -98,16 +97,15 @@ class Echoes {
     if (length == 0) return kNone;
     const uint32_t top = 1u << (length - 1);
     ago = top | port.bits(length - 1, ago & (top - 1));
-    return coded_[coded - std::min(ago, coded)];
+    return coded - std::min(ago, coded);
   }
 
   const ValueGraph& graph_;
   const Nodes<C>& nodes_;
-  const int shift_;
-  std::vector<Index> last_;    // per hash: the last site with such a value
-  std::vector<Index> same_;    // per site: an earlier one with the same value
-  std::vector<Index> places_;  // per site: where it is in `coded_`
-  std::vector<Index> coded_;
+  const int components_, shift_;
+  std::vector<Index> last_;   // per hash: the rank of the last site with such a value
+  std::vector<Index> same_;   // per rank: that of an earlier site with the same value
+  std::vector<Index> sites_;  // per rank
   std::array<Chance, 8> hits_;
   std::array<Chance, 33> longer_;
   uint32_t history_ = 0;

@@ -37,40 +37,58 @@ class Partition {
 
 }  // namespace
 
-ValueGraph::ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count)
-    : corner_count_(static_cast<Index>(sites.size())), corners_(new Corner[sites.size()]), first_(site_count, kNone) {
-  addCorners(mesh, sites);
-  if (sites.data() != mesh.umbrellas.data()) dropSeamTwins();
-  linkCorners();
+ValueGraph::ValueGraph(const Connectivity& mesh)
+    : sites_(mesh.umbrellas), twins_(mesh.twins), starts_(size_t{mesh.umbrella_count} + 1, 0) {
+  listShapes(mesh.face_degrees);
+  listCorners();
 }
 
-void ValueGraph::addCorners(const Connectivity& mesh, std::span<const Index> sites) {
+ValueGraph::ValueGraph(const Connectivity& mesh, std::vector<Index> sites, Index site_count)
+    : own_sites_(std::move(sites)), sites_(own_sites_), twins_(mesh.twins), starts_(size_t{site_count} + 1, 0) {
+  listShapes(mesh.face_degrees);
+  dropSeamTwins();
+  listCorners();
+}
+
+void ValueGraph::listShapes(std::span<const Index> face_degrees) {
+  constexpr Index kMostStep = 2047;
+  if (std::ranges::all_of(face_degrees, [](Index degree) { return degree == 3; })) return;
   const auto shapeOf = [](Index back, Index forth, Index degree) {
-    return back << 20 | (forth & 0xFFF) << 8 | std::min(degree, kMostDegree);
+    return back << 20 | (forth & 0xFFF) << 8 | std::min(degree, AnyFaces::kMostDegree);
   };
-  Corner* corner = corners_.get();
-  const Index *site = sites.data(), *twin = mesh.twins.data();
-  for (const Index degree : mesh.face_degrees) {
+  shapes_.resize(sites_.size());
+  uint32_t* shape = shapes_.data();
+  for (const Index degree : face_degrees) {
     if (degree == 0) continue;
     const Index wrap = degree - 1 <= kMostStep ? degree - 1 : 0, step = degree > 1;
-    *corner++ = {*site++, *twin++, shapeOf(wrap, step, degree), kNone};
-    for (Index i = 2; i < degree; ++i) *corner++ = {*site++, *twin++, shapeOf(~0u, 1, degree), kNone};
-    if (degree > 1) *corner++ = {*site++, *twin++, shapeOf(~0u, 0u - wrap, degree), kNone};
+    *shape++ = shapeOf(wrap, step, degree);
+    for (Index i = 2; i < degree; ++i) *shape++ = shapeOf(~0u, 1, degree);
+    if (degree > 1) *shape++ = shapeOf(~0u, 0u - wrap, degree);
   }
 }
 
 void ValueGraph::dropSeamTwins() {
   for (Index c = 0; c < cornerCount(); ++c) {
-    Index& twin = corners_[c].twin;
-    if (twin != kNone && (site(twin) != site(next(c)) || site(next(twin)) != site(c))) twin = kNone;
+    const Index twin = twins_[c];
+    if (twin == kNone || (site(twin) == site(next(c)) && site(next(twin)) == site(c))) continue;
+    if (own_twins_.empty()) {
+      own_twins_.assign(twins_.begin(), twins_.end());
+      twins_ = own_twins_;
+    }
+    own_twins_[c] = kNone;
   }
 }
 
-void ValueGraph::linkCorners() {
-  Corner* const corners = corners_.get();
-  Index* const first = first_.data();
+// Sorts the corners by their sites: counts, then fills from behind.
+void ValueGraph::listCorners() {
+  const auto counts = [&](Index corner) { return shapes_.empty() || degree(corner) >= 3; };
+  Index* const starts = starts_.data();
+  for (Index c = 0; c < cornerCount(); ++c) starts[sites_[c]] += counts(c);
+  Index sum = 0;
+  for (Index& start : starts_) start = sum += start;
+  corners_ = std::make_unique_for_overwrite<Index[]>(sum);
   for (Index c = cornerCount(); c-- > 0;) {
-    if ((corners[c].shape & kMostDegree) >= 3) corners[c].following = std::exchange(first[corners[c].site], c);
+    if (counts(c)) corners_[--starts[sites_[c]]] = c;
   }
 }
 

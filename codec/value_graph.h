@@ -2,6 +2,7 @@
 // Where values sit on a mesh. Corners that share a value form a *site*: a vertex for positions; for an attribute with
 // seams, the corners of a vertex between two seams.
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -10,58 +11,79 @@
 
 namespace tutte {
 
-/// The sites of one attribute over a mesh, as predictors see them. 16 bytes per corner: what is asked for together lies
-/// together.
+/// The ways round the faces of a mesh that has nothing but triangles.
+struct TriangleFaces {
+  static constexpr bool kAllTriangles = true;
+
+  Index degree(Index) const { return 3; }
+  // Sums, because compilers make decisions of comparisons, and which corner it is nobody foresees.
+  Index next(Index corner) const { return corner + 1 - (corner % 3 >> 1) * 3; }
+  Index prev(Index corner) const { return corner - 1 + ((2 - corner % 3) >> 1) * 3; }
+};
+
+/// The same for any faces, from a word per corner: 12 bits the way to the corner before it, 12 bits to the one after
+/// it, 8 bits the degree.
+struct AnyFaces {
+  static constexpr bool kAllTriangles = false;
+  static constexpr uint32_t kMostDegree = 255;
+
+  const uint32_t* shapes;
+
+  Index degree(Index corner) const { return shapes[corner] & kMostDegree; }
+  Index next(Index corner) const {
+    return corner + static_cast<Index>(static_cast<int32_t>(shapes[corner] << 12) >> 20);
+  }
+  Index prev(Index corner) const { return corner + static_cast<Index>(static_cast<int32_t>(shapes[corner]) >> 20); }
+};
+
+/// The sites of one attribute over a mesh, as predictors see them. 4 bytes per corner and per site, and 4 more per
+/// corner each: where not all faces are triangles, where the sites are not the umbrellas, and where seams part faces.
 ///
-/// In a face of more than 2047 corners, the first one's predecessor and the last one's successor are these themselves.
+/// In a face of more than 2048 corners, the first one's predecessor and the last one's successor are these themselves.
 class ValueGraph {
  public:
-  /// `sites` gives a number below `site_count` for every corner. O(corners).
-  ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count);
+  /// The sites are the umbrellas. The mesh must stay as and where it is. O(corners), as the other one.
+  explicit ValueGraph(const Connectivity& mesh);
+  /// `sites` gives a number below `site_count` for every corner.
+  ValueGraph(const Connectivity& mesh, std::vector<Index> sites, Index site_count);
+  ValueGraph(ValueGraph&&) = default;
 
-  Index siteCount() const { return static_cast<Index>(first_.size()); }
-  Index cornerCount() const { return corner_count_; }
+  Index siteCount() const { return static_cast<Index>(starts_.size() - 1); }
+  Index cornerCount() const { return static_cast<Index>(sites_.size()); }
 
-  Index site(Index corner) const { return corners_[corner].site; }
+  Index site(Index corner) const { return sites_[corner]; }
   /// As Connectivity::twins, but kNone where the far side has other sites.
-  Index twin(Index corner) const { return corners_[corner].twin; }
+  Index twin(Index corner) const { return twins_[corner]; }
   /// The degree of its face, at most 255.
-  Index degree(Index corner) const { return corners_[corner].shape & kMostDegree; }
-  Index next(Index corner) const {
-    return corner + static_cast<Index>(static_cast<int32_t>(corners_[corner].shape << 12) >> 20);
-  }
-  Index prev(Index corner) const {
-    return corner + static_cast<Index>(static_cast<int32_t>(corners_[corner].shape) >> 20);
-  }
+  Index degree(Index corner) const { return shapes_.empty() ? 3 : any().degree(corner); }
+  Index next(Index corner) const { return shapes_.empty() ? TriangleFaces{}.next(corner) : any().next(corner); }
+  Index prev(Index corner) const { return shapes_.empty() ? TriangleFaces{}.prev(corner) : any().prev(corner); }
 
-  /// Calls visit(corner) for the first 64 corners of a site, ascending; those of faces of degree below 3 do not count.
+  /// Calls visit(faces) with TriangleFaces or AnyFaces: for those who go round many of them.
   template <class Visit>
-  [[gnu::always_inline]] void forCorners(Index site, Visit visit) const {
-    int rest = kMostCorners;
-    for (Index corner = first_[site]; corner != kNone && rest > 0; corner = corners_[corner].following, --rest) {
-      visit(corner);
-    }
+  auto withFaces(Visit visit) const {
+    return shapes_.empty() ? visit(TriangleFaces{}) : visit(any());
   }
 
-  static constexpr int kMostCorners = 64;
+  /// The first 64 corners of a site, ascending; those of faces of degree below 3 do not count.
+  std::span<const Index> corners(Index site) const {
+    const Index begin = starts_[site], count = starts_[site + 1] - begin;
+    return {corners_.get() + begin, std::min(count, kMostCorners)};
+  }
+
+  static constexpr Index kMostCorners = 64;
 
  private:
-  static constexpr uint32_t kMostDegree = 255;
-  static constexpr Index kMostStep = 2047;
-
-  struct Corner {
-    Index site, twin;
-    uint32_t shape;   // 12 bits the way to the corner before it, 12 bits to the one after it, 8 bits the degree
-    Index following;  // the next corner of the site
-  };
-
-  void addCorners(const Connectivity& mesh, std::span<const Index> sites);
+  AnyFaces any() const { return {shapes_.data()}; }
+  void listShapes(std::span<const Index> face_degrees);
+  void listCorners();
   void dropSeamTwins();
-  void linkCorners();
 
-  Index corner_count_;
-  std::unique_ptr<Corner[]> corners_;
-  std::vector<Index> first_;  // per site its first corner
+  std::vector<Index> own_sites_, own_twins_;  // empty: the mesh's
+  std::span<const Index> sites_, twins_;      // per corner
+  std::vector<uint32_t> shapes_;              // per corner; empty: all triangles
+  std::vector<Index> starts_;                 // per site where its corners begin, and where all end
+  std::unique_ptr<Index[]> corners_;          // site by site
 };
 
 /// The site of each wedge, numbered by the smallest wedge.

@@ -15,9 +15,11 @@ namespace tutte::values {
 /// For attributes without relatives.
 template <int C>
 struct NoGuide {
+  static constexpr bool kWantsEdges = false;
+
   NoGuide(const ValueGraph&, const Nodes<C>&, std::span<const int32_t>, int32_t) {}
   template <class T>
-  void refine(Index, Stencil<C, T>&) {}
+  void refine(const Surroundings&, Stencil<C, T>&) {}
   void learn(Index, const Vec<C, int32_t>&) {}
 };
 
@@ -48,27 +50,19 @@ inline int64_t distance(const Vec<2, int32_t>& a, const Vec<2, int32_t>& b) {
 /// corners of which have known coordinates, gives the third's, once it is known whether the texture is mirrored.
 class TexcoordGuide {
  public:
-  TexcoordGuide(const ValueGraph& graph, const Nodes<2>& nodes, std::span<const int32_t> places, int32_t max)
-      : graph_(graph), nodes_(nodes), places_(places), states_(graph.siteCount()), limit_(int64_t{max} << kFraction) {}
+  static constexpr bool kWantsEdges = true;
 
-  void refine(Index site, Stencil<2, int32_t>& stencil) {
+  TexcoordGuide(const ValueGraph& graph, const Nodes<2>& nodes, std::span<const int32_t> places, int32_t max)
+      : nodes_(nodes), places_(places), states_(graph.siteCount()), limit_(int64_t{max} << kFraction) {}
+
+  void refine(const Surroundings& around, Stencil<2, int32_t>& stencil) {
     count_ = 0;
     int64_t here_error = 0, stencil_error = 0;
-    const auto weigh = [&](Index neighbour) {
+    for (const Index neighbour : around.neighbours) {
       here_error += states_[neighbour].here_error;
       stencil_error += states_[neighbour].stencil_error;
-    };
-    graph_.forCorners(site, [&](Index corner) {
-      const Index next = graph_.next(corner), prev = graph_.prev(corner);
-      const Index a = graph_.site(next), b = graph_.site(prev);
-      if (nodes_.known(a)) weigh(a);
-      if (nodes_.known(b) && graph_.twin(prev) == kNone) weigh(b);
-      if (nodes_.known(a) && nodes_.known(b)) develop(site, a, b);
-      if (graph_.degree(corner) == 3) return;
-      const Index c = graph_.site(graph_.next(next)), d = graph_.site(graph_.prev(prev));
-      if (nodes_.known(a) && nodes_.known(c)) develop(site, a, c);
-      if (nodes_.known(d) && nodes_.known(b)) develop(site, d, b);
-    });
+    }
+    for (const Term& edge : around.edges) develop(around.site, edge);
     stencil_base_ = here_base_ = stencil.base;
     if (count_ == 0) return;
     average();
@@ -79,13 +73,13 @@ class TexcoordGuide {
       stencil.lean = here_base_;
   }
 
-  void learn(Index site, const std::array<int32_t, 2>& value) {
+  void learn(Index, const std::array<int32_t, 2>& value) {
     const Vec<2, int32_t> truth = {value[0] << kFraction, value[1] << kFraction};
-    State& state = states_[site];
+    State& state = states_[nodes_.count() - 1];
     state.here_error = static_cast<uint32_t>(distance(truth, here_base_));
     state.stencil_error = static_cast<uint32_t>(distance(truth, stencil_base_));
     if (count_ == 0) return;
-    const int64_t x = value[0] - nodes_[edge_[0]].value[0], y = value[1] - nodes_[edge_[0]].value[1];
+    const int64_t x = value[0] - nodes_[edge_].value[0], y = value[1] - nodes_[edge_].value[1];
     const int64_t side = edge_step_[0] * y - edge_step_[1] * x;
     if (side != 0) last_turn_ = side > 0 ? 1 : -1;
     state.turn = last_turn_;
@@ -98,19 +92,19 @@ class TexcoordGuide {
     int8_t turn = 0;             ///< 1: the texture lies as the surface does; -1: mirrored; 0: unknown
   };
 
-  /// The prediction from the edge p -> q, which runs round the face that the site belongs to.
-  void develop(Index site, Index p, Index q) {
+  /// The prediction from an edge that runs round the face that the site belongs to.
+  void develop(Index site, const Term& term) {
     if (count_ == Stencil<2, int32_t>::kMostMembers) return;
-    Vector3 edge = places_.between(p, q), leg = places_.between(p, site);
+    Vector3 edge = places_.between(term.x, term.y), leg = places_.between(term.x, site);
     const int64_t largest = std::max(largestMagnitude(edge), largestMagnitude(leg));
     const int shift = static_cast<int>(std::bit_width(static_cast<uint64_t>(largest))) - 14;
     for (int i = 0; i < 3 && shift > 0; ++i) edge[i] >>= shift, leg[i] >>= shift;
     const int64_t square = dot(edge, edge), along = dot(edge, leg);
     if (square == 0) return;
     const int64_t across = squareRoot(static_cast<uint64_t>(dot(leg, leg) * square - along * along));
-    const std::array<int32_t, 2>&from = nodes_[p].value, &to = nodes_[q].value;
+    const std::array<int32_t, 2>&from = nodes_[term.a].value, &to = nodes_[term.b].value;
     const int64_t dx = int64_t{to[0]} - from[0], dy = int64_t{to[1]} - from[1];
-    const int64_t height = turnAt(p, q) < 0 ? -across : across;
+    const int64_t height = turnAt(term.a, term.b) < 0 ? -across : across;
     Vec<2, int32_t>& member = members_[count_];
     const auto place = [&](int32_t start, int64_t step) {
       const int64_t x = (int64_t{start} << kFraction) + step * (1 << kFraction) / square;
@@ -119,7 +113,7 @@ class TexcoordGuide {
     member[0] = place(from[0], along * dx - height * dy);
     member[1] = place(from[1], along * dy + height * dx);
     if (count_++ == 0) {
-      edge_ = {p, q};
+      edge_ = term.a;
       edge_step_ = {dx, dy};
     }
   }
@@ -148,10 +142,9 @@ class TexcoordGuide {
     }
   }
 
-  const ValueGraph& graph_;
   const Nodes<2>& nodes_;
   const Places places_;
-  std::vector<State> states_;
+  std::vector<State> states_;  // by rank
   const int64_t limit_;
   int8_t last_turn_ = 1;
 
@@ -159,7 +152,7 @@ class TexcoordGuide {
   int count_ = 0;
   std::array<Vec<2, int32_t>, Stencil<2, int32_t>::kMostMembers> members_;
   Vec<2, int32_t> here_base_{}, stencil_base_{};
-  std::array<Index, 2> edge_{};
+  Index edge_ = 0;  // the first prediction's start
   std::array<int64_t, 2> edge_step_{};
 };
 

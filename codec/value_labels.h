@@ -5,11 +5,12 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "codec/value_graph.h"
 #include "codec/value_model.h"
-#include "codec/value_order.h"
+#include "codec/value_surroundings.h"
 
 namespace tutte::values {
 
@@ -23,16 +24,16 @@ class LabelCoder {
         graph_(graph),
         bits_(static_cast<int>(std::bit_width(count - 1))),
         count_(count),
-        order_(graph.siteCount()),
+        finder_(graph, false),
         labels_(graph.siteCount(), kNone),
         slots_(size_t{kInputs} << kTableBits) {
     mixer_.fill(Mixer<kInputs>());
   }
 
-  /// The site whose turn it is.
-  Index next() { return order_.next(); }
-
-  uint32_t code(Index site, uint32_t label) {
+  /// Codes the next site's label; a writer takes it from `labels`, which has all sites', a reader stores it there.
+  void code(std::span<int32_t> labels) {
+    const Index site = finder_.next().site;
+    const auto label = static_cast<uint32_t>(labels[site]);
     const std::array<uint32_t, kInputs> contexts = contextsOf(site);
     uint32_t node = 1;  // the bits so far below a leading one
     for (int i = bits_ - 1; i >= 0; --i) {
@@ -42,13 +43,8 @@ class LabelCoder {
       if (upper < count_) bit = decide(contexts, node, label >> i & 1);
       node = node << 1 | static_cast<uint32_t>(bit);
     }
-    label = node - (1u << bits_);
-    labels_[site] = last_ = label;
-    urgencies_.clear();
-    graph_.forCorners(site, [&](Index corner) { addUrgencies(graph_, corner, order_, urgencies_); });
-    order_.urge(urgencies_.entries());
-    order_.learn(site, false);
-    return label;
+    labels_[site] = last_ = node - (1u << bits_);
+    labels[site] = static_cast<int32_t>(last_);
   }
 
  private:
@@ -60,7 +56,7 @@ class LabelCoder {
     std::array<uint32_t, 4> around;
     around.fill(kNone);
     uint32_t found = 0, agreeing = 0;
-    graph_.forCorners(site, [&](Index corner) {
+    for (const Index corner : graph_.corners(site)) {
       for (const Index other : {graph_.next(corner), graph_.prev(corner)}) {
         const uint32_t label = labels_[graph_.site(other)];
         if (label == kNone) continue;
@@ -69,7 +65,7 @@ class LabelCoder {
       }
       const uint32_t opposite = labels_[graph_.site(graph_.next(graph_.next(corner)))];
       if (opposite != kNone && around[2] == kNone) around[2] = opposite;
-    });
+    }
     agreeing = std::min(agreeing, 3u);
     return {0u, around[0] * 4 + agreeing, around[0] * 0x10001u + around[1] * 3, around[2] * 0x8003u + around[0], last_};
   }
@@ -87,8 +83,7 @@ class LabelCoder {
   const ValueGraph& graph_;
   const int bits_;
   const uint32_t count_;
-  SiteOrder order_;
-  Urgencies urgencies_;
+  SurroundingsFinder finder_;
   uint32_t last_ = 0;
   std::vector<uint32_t> labels_;  // per site; kNone: unknown
   std::vector<Chance> slots_;

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "codec/value_graph.h"
@@ -61,7 +60,7 @@ class Urgencies {
 class SiteOrder {
  public:
   explicit SiteOrder(Index sites)
-      : scores_(sites, 0), stacked_(new Index[(size_t{sites} + 1) * kLevels]), stride_(size_t{sites} + 1) {}
+      : states_(sites, kUnknown), stacked_(new Index[(size_t{sites} + 1) * kLevels]), stride_(size_t{sites} + 1) {}
 
   /// The next site; there must be one that is not known.
   Index next() {
@@ -76,19 +75,23 @@ class SiteOrder {
     return seed_;
   }
 
-  bool known(Index site) const { return scores_[site] >= kKnown; }
-  bool marked(Index site) const { return scores_[site] == kMarked; }
+  /// How many sites were known before that one; unknown ones have larger numbers than that.
+  Index rank(Index site) const { return states_[site]; }
+  static constexpr bool isRank(Index rank) { return rank < kUnknown; }
+  bool known(Index site) const { return isRank(rank(site)); }
+  std::span<const Index> ranks() const { return states_; }
+  Index knownCount() const { return known_; }
 
-  /// A site is known from now on. The mark is the caller's.
-  void learn(Index site, bool mark) { scores_[site] = mark ? kMarked : kKnown; }
+  /// A site is known from now on.
+  void learn(Index site) { states_[site] = known_++; }
 
   /// The sites must not be known.
   void urge(std::span<const Urgencies::Entry> entries) {
     for (const Urgencies::Entry entry : entries) {
       const auto site = static_cast<Index>(entry), amount = static_cast<Index>(entry >> 32);
-      const unsigned before = scores_[site];
+      const unsigned before = states_[site] - kUnknown;
       const unsigned now = std::clamp(before + amount, 1u, kMost);
-      scores_[site] = static_cast<uint16_t>(now);
+      states_[site] = kUnknown + now;
       // A site comes to every level once, so that no stack overflows.
       const unsigned level = kLevelOf[now];
       const bool rises = level != kLevelOf[before];
@@ -100,7 +103,8 @@ class SiteOrder {
 
  private:
   static constexpr int kLevels = 6;
-  static constexpr unsigned kMost = 253, kKnown = 254, kMarked = 255;
+  static constexpr unsigned kMost = 253;
+  static constexpr Index kUnknown = 1u << 31;
 
   // One less than the number of binary digits of the score, at most 5; without a score no level.
   static constexpr std::array<uint8_t, kMost + 1> kLevelOf = [] {
@@ -112,23 +116,12 @@ class SiteOrder {
     return levels;
   }();
 
-  std::vector<uint16_t> scores_;      // no bytes, of which compilers think that they may be anything
+  std::vector<Index> states_;         // the rank of a known site; kUnknown and the score of others
   std::unique_ptr<Index[]> stacked_;  // kLevels stacks
   std::array<Index, kLevels> sizes_{};
   size_t stride_;
   int top_ = -1;  // no higher stack has anything
-  Index seed_ = 0;
+  Index seed_ = 0, known_ = 0;
 };
-
-/// All that the order wants to know of a corner, for those who do not look at its surroundings themselves.
-inline void addUrgencies(const ValueGraph& graph, Index corner, const SiteOrder& order, Urgencies& urgencies) {
-  const Index next = graph.next(corner), prev = graph.prev(corner), degree = graph.degree(corner);
-  const Index a = graph.site(next), b = graph.site(prev);
-  const bool know_a = order.known(a), know_b = order.known(b);
-  if (degree == 3) return urgencies.addTriangle(a, know_a, b, know_b);
-  const Index c = graph.site(graph.next(next));
-  if (degree == 4) return urgencies.addQuad(a, know_a, b, know_b, c, order.known(c));
-  urgencies.addPolygon(a, know_a, b, know_b, order.known(c), order.known(graph.site(graph.prev(prev))));
-}
 
 }  // namespace tutte

@@ -7,53 +7,62 @@
 #include <optional>
 #include <vector>
 
-#include "codec/value_classes.h"
 #include "codec/value_echoes.h"
 #include "codec/value_graph.h"
 #include "codec/value_guides.h"
 #include "codec/value_model.h"
+#include "codec/value_residuals.h"
 #include "codec/value_stencil.h"
 #include "codec/value_tables.h"
 
 namespace tutte::values {
 
-/// `C` components in numbers of type `T` (value_stencil.h), residuals by `Coder`. Values lie in [0, max]. With
-/// `tangent`, three components are points of a surface, and the third is corrected towards its tangent plane. With
-/// `echoes`, values may come again (value_echoes.h).
-template <class Port, int C, class T, class Coder, class Guide>
+/// Up to `C` components in numbers of type `T` (value_nodes.h). Values lie in [0, max]. With `tangent`, three
+/// components are points of a surface, and the third is corrected towards its tangent plane. With `echoes`, values may
+/// come again (value_echoes.h).
+template <class Port, int C, class T, class Guide>
 class SitePredictor {
  public:
-  SitePredictor(Port& port, const ValueGraph& graph, std::span<const int32_t> places, int32_t max, bool tangent,
-                bool echoes)
+  struct Options {
+    int components;
+    int32_t max;
+    bool tangent;
+    bool echoes;
+  };
+
+  SitePredictor(Port& port, const ValueGraph& graph, std::span<const int32_t> places, const Options& options,
+                Residuals& residuals)
       : port_(port),
-        nodes_(graph.siteCount()),
-        stencil_(graph, nodes_),
-        guide_(graph, nodes_, places, max),
-        max_(max),
-        tangent_(tangent) {
-    if (echoes) echoes_.emplace(graph, nodes_);
+        finder_(graph, Guide::kWantsEdges),
+        nodes_(finder_.ranks()),
+        stencil_(nodes_),
+        guide_(graph, nodes_, places, options.max),
+        residuals_(residuals),
+        count_(options.components),
+        max_(options.max),
+        tangent_(options.tangent) {
+    if (options.echoes) echoes_.emplace(graph, nodes_, count_);
     picks_.fill(Chance(6160));
     tangents_.fill(2048);
   }
 
-  /// The site whose turn it is.
-  Index next() { return nodes_.order.next(); }
-
-  /// Codes its value; a writer takes it from `value`, a reader stores it there.
-  void code(Index site, std::span<int32_t, C> value) {
-    stencil_.gather(site, last_, tangent_);
-    guide_.refine(site, stencil_);
+  /// Codes the value of the next site; a writer takes it from `values`, which has all sites', a reader stores it there.
+  void code(std::span<int32_t> values) {
+    const Surroundings& around = finder_.next();
+    const std::span<int32_t> value = values.subspan(size_t{around.site} * count_, static_cast<size_t>(count_));
+    stencil_.gather(around, last_, tangent_);
+    guide_.refine(around, stencil_);
     estimateScale();
-    if (!echo(site, value)) {
-      pick(value);
-      codeComponents(value);
+    if constexpr (Port::kWriting) std::ranges::copy(value, wanted_.begin());
+    if (!echo(around.site)) {
+      pick();
+      codeComponents();
     }
-    std::copy_n(value.data(), C, last_.begin());
-    Node<C>& node = nodes_.learn(site, picked_);
-    node.value = last_;
-    node.error = errors_;
-    guide_.learn(site, last_);
-    if (echoes_) echoes_->learn(site);
+    last_ = wanted_;
+    if constexpr (!Port::kWriting) std::copy_n(last_.begin(), count_, value.begin());
+    nodes_.add({last_, errors_}, picked_);
+    guide_.learn(around.site, last_);
+    if (echoes_) echoes_->learn(around.site);
     adaptTypicalError();
   }
 
@@ -66,17 +75,17 @@ class SitePredictor {
 
   bool parallelograms() const { return stencil_.member_count > 0; }
 
+  int width() const { return C == 2 || C == 3 ? C : count_; }
+
   // The value of an earlier site; the residuals are what they would have been.
-  bool echo(Index site, std::span<int32_t, C> value) {
+  bool echo(Index site) {
     if (!echoes_) return false;
-    Vec<C, int32_t> wanted{};
-    std::copy_n(value.data(), C, wanted.begin());
-    const Index earlier = echoes_->code(port_, site, stencil_.neighbours > 0, wanted);
+    const Index earlier = echoes_->code(port_, site, stencil_.neighbours > 0, wanted_);
     if (earlier == kNone) return false;
     picked_ = false;
-    for (int i = 0; i < C; ++i) {
-      value[i] = nodes_[earlier].value[i];
-      const T off = value[i] * kOne - stencil_.base[i];
+    wanted_ = nodes_[earlier].value;
+    for (int i = 0; i < width(); ++i) {
+      const T off = wanted_[i] * kOne - stencil_.base[i];
       errors_[i] = static_cast<int32_t>(std::min<T>(off < 0 ? -off : off, kLargestError));
     }
     return true;
@@ -92,28 +101,28 @@ class SitePredictor {
     }
     const int64_t reciprocal = kReciprocal[count];
     int64_t sum = 0;
-    for (int i = 0; i < C; ++i) {
+    for (int i = 0; i < width(); ++i) {
       near_error_[i] = static_cast<int32_t>(stencil_.error_sum[i] * reciprocal >> 16);
       sum += near_error_[i];
     }
-    all_error_ = static_cast<int32_t>(C == 3 ? sum * 21845 >> 16 : sum / C);
+    all_error_ = static_cast<int32_t>(width() == 3 ? sum * 21845 >> 16 : sum / width());
     if (count == 1) all_error_ = (all_error_ + typical_error_) >> 1;
   }
 
   // One parallelogram instead of the average: explicit, where there are several.
-  void pick(std::span<const int32_t, C> value) {
+  void pick() {
     picked_ = false;
     members_context_ = static_cast<uint32_t>(std::min(stencil_.member_count, 3));
     if (stencil_.member_count < 2) return;
     T spread = 0;
-    for (int i = 0; i < C; ++i) spread += stencil_.spread[i];
+    for (int i = 0; i < width(); ++i) spread += stencil_.spread[i];
     const int level = std::min(quarterLog(small(spread)) / 4, 11);
     const uint32_t count = static_cast<uint32_t>(std::min(stencil_.member_count, 4)) - 2;
     const auto around = static_cast<uint32_t>(std::min(stencil_.picked_neighbours, 3));
     const uint32_t within = stencil_.source == Source::kWithin ? 1 : 0;
     Chance& chance = picks_[((within * 3 + count) * 4 + around) * 12 + static_cast<uint32_t>(level)];
     int choice = 0;
-    if constexpr (Port::kWriting) choice = bestMember(value, chance);
+    if constexpr (Port::kWriting) choice = bestMember(chance);
     if (!chance.code(port_, choice > 0)) return;
     int m = 0;
     std::array<Chance, Stencil<C, T>::kMostMembers>& row = indices_[count];
@@ -124,11 +133,11 @@ class SitePredictor {
   }
 
   // 0: the average; m + 1: parallelogram m. Costs are in quarters of bits.
-  int bestMember(std::span<const int32_t, C> value, const Chance& chance) const {
+  int bestMember(const Chance& chance) const {
     const auto cost = [&](const Values& prediction) {
       int32_t sum = 0;
-      for (int i = 0; i < C; ++i) {
-        const T off = value[i] * kOne - prediction[i];
+      for (int i = 0; i < width(); ++i) {
+        const T off = wanted_[i] * kOne - prediction[i];
         sum += quarterLog(small((off < 0 ? -off : off) + 8));
       }
       return sum;
@@ -145,39 +154,35 @@ class SitePredictor {
     return best;
   }
 
-  void codeComponents(std::span<int32_t, C> value) {
+  void codeComponents() {
     const std::array<int, C> order = componentOrder();
     Values raw{};
     int32_t so_far = 0;
-    const auto codeAll = [&]<int... ranks>(std::integer_sequence<int, ranks...>) {
-      (codeComponent<ranks>(order, raw, so_far, value), ...);
-    };
-    codeAll(std::make_integer_sequence<int, C>());
+    for (int place = 0; place < width(); ++place) codeComponent(order, place, raw, so_far);
   }
 
-  template <int rank>
-  [[gnu::always_inline]] void codeComponent(const std::array<int, C>& order, Values& raw, int32_t& so_far,
-                                            std::span<int32_t, C> value) {
-    const int i = order[rank];
+  [[gnu::always_inline]] void codeComponent(const std::array<int, C>& order, int place, Values& raw, int32_t& so_far) {
+    const int i = order[place];
     T prediction = stencil_.base[i];
     int64_t correction = 0;
-    if (rank == 2 && bent_) {
+    const bool corrected = place == 2 && bent_;
+    if (corrected) {
       correction = tangentCorrection(order, raw);
       prediction += static_cast<T>(tangentGain() * correction >> 12);
     }
     const T rounded = std::clamp<T>((prediction + 8) >> kFraction, 0, max_);
-    const T residual = value[i] - rounded;
-    T coded = rounded + static_cast<T>(codeResidual < rank < 2 ? rank : 2 > (i, so_far, prediction, residual));
+    T coded = rounded + static_cast<T>(residuals_.code(port_, expect(i, std::min(place, 2), so_far, prediction),
+                                                       wanted_[i] - rounded));
     if (coded < 0 || coded > max_) {
       damaged_ = true;
       coded = std::clamp<T>(coded, 0, max_);
     }
-    value[i] = static_cast<int32_t>(coded);
+    wanted_[i] = static_cast<int32_t>(coded);
     raw[i] = coded * kOne - stencil_.base[i];
     const T off = coded * kOne - prediction;
     errors_[i] = static_cast<int32_t>(std::min<T>(off < 0 ? -off : off, kLargestError));
     so_far += errors_[i];
-    if (rank == 2 && bent_) adaptTangent(raw[i], correction);
+    if (corrected) adaptTangent(raw[i], correction);
   }
 
   // Where the plane is at the two components that are known.
@@ -226,72 +231,54 @@ class SitePredictor {
     gain = static_cast<int32_t>(std::clamp<int64_t>(gain + step, -512, 4608));
   }
 
-  template <int rank>
-  [[gnu::always_inline]] int64_t codeResidual(int i, int32_t so_far, T prediction, T residual) {
+  Expectation expect(int i, int rank, int32_t so_far, T prediction) const {
+    Expectation about;
     const int32_t near = near_error_[i], all = all_error_;
-    const int32_t spread = static_cast<int32_t>(std::min<T>(stencil_.spread[i], kWidest));
-    int32_t estimate = C == 1      ? near
-                       : rank == 0 ? (2 * all + near) / 3
-                       : rank == 1 ? (all + near + 2 * so_far) >> 2
-                                   : (all + near + so_far) >> 2;
-    if (stencil_.member_count > 1) {
-      estimate = (estimate + spread) >> 1;
-    } else if (parallelograms()) {
-      estimate = (7 * estimate + std::min(spread, 2 * estimate)) >> 3;
-    }
-    if (picked_) estimate >>= 1;
-
-    ResidualContext context;
-    context.component = rank;
-    context.level = std::min(quarterLog(half(estimate)), 63);
+    about.near = near;
+    about.all = all;
+    about.so_far = so_far;
+    about.spread = static_cast<int32_t>(std::min<T>(stencil_.spread[i], kWidest));
+    about.widest = static_cast<int32_t>(std::min(*std::ranges::max_element(stencil_.spread), kWidest));
+    about.members = members_context_;
+    about.source = parallelograms() ? stencil_.source == Source::kWithin ? 0 : 1 : 2;
+    about.rank = rank;
     const int64_t side = C == 3 && bent_ ? normal_[i] : stencil_.lean[i] - prediction;
-    context.sign = static_cast<int>((prediction & 15) >> 1) * 3 + (side > 0) - (side < 0) + 1;
-    const auto level = static_cast<uint32_t>(context.level), members = members_context_;
-    const auto relative = [&](int32_t size, int least, int most) {
-      return static_cast<uint32_t>(std::clamp((quarterLog(half(size)) - context.level) >> 1, least, most) - least);
-    };
-    if constexpr (Coder::kInputs <= 2) {
-      context.line[0] = (level / 2 * 3 + rank) * 4 + members;
-      if constexpr (Coder::kInputs == 2) {
-        context.line[1] = (relative(spread, -7, 7) * 6 + relative(near, -3, 2)) * 16 + level / 4;
-      }
-    } else {
-      const int expected = std::min(bitLength(static_cast<uint32_t>(estimate * 3 >> 6)), kLongest);
-      const auto e = static_cast<uint32_t>(expected);
-      context.expected = expected;
-      const T widest = *std::max_element(stencil_.spread.begin(), stencil_.spread.begin() + C);
-      const uint32_t source = parallelograms() ? stencil_.source == Source::kWithin ? 0 : 1 : 2;
-      const auto log = [](uint32_t x) { return static_cast<uint32_t>(std::min(quarterLog(x) / 2, 31)); };
-      context.line = {
-          (level * 3 + rank) * 4 + members, (relative(spread, -7, 7) * 4 + members) * 19 + e,
-          (relative(near, -5, 6) * 16 + relative(static_cast<int32_t>(std::min<T>(widest, kWidest)), -7, 8)) * 19 + e,
-          ((source * 4 + members) * 19 + e) * 32 + log(half(all)),
-          (log(static_cast<uint32_t>(so_far)) * 19 + e) * 3 + rank};
+    about.sign = static_cast<int>((prediction & 15) >> 1) * 3 + (side > 0) - (side < 0) + 1;
+    int32_t estimate = width() == 1 ? near
+                       : rank == 0  ? (2 * all + near) / 3
+                       : rank == 1  ? (all + near + 2 * so_far) >> 2
+                                    : (all + near + so_far) >> 2;
+    if (stencil_.member_count > 1) {
+      estimate = (estimate + about.spread) >> 1;
+    } else if (parallelograms()) {
+      estimate = (7 * estimate + std::min(about.spread, 2 * estimate)) >> 3;
     }
-    return residuals_.code(port_, context, residual);
+    about.estimate = picked_ ? estimate >> 1 : estimate;
+    return about;
   }
 
   void adaptTypicalError() {
     int64_t sum = 0;
-    for (int i = 0; i < C; ++i) sum += errors_[i];
-    const int64_t now = std::min<int64_t>(sum / C, 4 * int64_t{typical_error_});
+    for (int i = 0; i < width(); ++i) sum += errors_[i];
+    const int64_t now = std::min<int64_t>(sum / width(), 4 * int64_t{typical_error_});
     typical_error_ = static_cast<int32_t>(std::max<int64_t>(typical_error_ + ((now - typical_error_) >> 5), 16));
   }
 
   static constexpr T kWidest = 1 << 25;
   static uint32_t small(int64_t x) { return static_cast<uint32_t>(std::min<int64_t>(x, 0x7FFFFFF0)); }
-  static uint32_t half(int32_t x) { return static_cast<uint32_t>(x) >> 1; }
 
   Port& port_;
+  SurroundingsFinder finder_;
   Nodes<C> nodes_;
   Stencil<C, T> stencil_;
   Guide guide_;
-  Coder residuals_;
+  Residuals& residuals_;
   std::optional<Echoes<C>> echoes_;
   std::array<Chance, 2 * 3 * 4 * 12> picks_;
   std::array<std::array<Chance, Stencil<C, T>::kMostMembers>, 3> indices_;
   std::array<int32_t, 16 * 3 * 2> tangents_;
 
+  const int count_;  // of components
   const T max_;
   const bool tangent_;
   bool damaged_ = false;
@@ -299,7 +286,7 @@ class SitePredictor {
   Vec<C, int32_t> last_{};
 
   // Of the current site.
-  Vec<C, int32_t> near_error_{}, errors_{};
+  Vec<C, int32_t> wanted_{}, near_error_{}, errors_{};  // `wanted_` is the value
   int32_t all_error_ = 0;
   std::array<int64_t, 3> normal_{};
   uint32_t members_context_ = 0;

@@ -20,7 +20,7 @@ using values::TexcoordGuide;
 
 constexpr int32_t kMaxValue = (1 << 27) - 1, kMaxPoint = (1 << 20) - 1, kMaxTexcoord = (1 << 18) - 1;
 
-/// Everything about one attribute in one direction; picks the templates one parameter at a time.
+/// Everything about one attribute in one direction.
 template <class Port>
 struct Run {
   Port& port;
@@ -31,48 +31,25 @@ struct Run {
 
   Error labels(uint32_t count) {
     values::LabelCoder<Port> coder(port, sites.graph, count);
-    return everySite([&] {
-      const Index site = coder.next();
-      values[site] = static_cast<int32_t>(coder.code(site, static_cast<uint32_t>(values[site])));
-    });
+    return everySite([&] { coder.code(values); });
   }
 
-  Error profile() {
-    switch (format.profile) {
-      case ValueProfile::kFast: return kind<values::ClassCoder<1>>();
-      case ValueProfile::kDefault: return kind<values::ClassCoder<2>>();
-      default: return kind<values::MixingCoder>();
-    }
-  }
-
-  template <class Coder>
-  Error kind() {
+  Error numbers() {
     switch (format.kind) {
-      case ValueKind::kTexcoord: return code<2, int32_t, Coder, TexcoordGuide>();
-      case ValueKind::kDirection: return code<2, int32_t, Coder, DirectionGuide>();
-      case ValueKind::kPoints: return code<3, int32_t, Coder, NoGuide<3>>();
-      default: return components<Coder>();
+      case ValueKind::kTexcoord: return code<2, int32_t, TexcoordGuide>();
+      case ValueKind::kDirection: return code<2, int32_t, DirectionGuide>();
+      case ValueKind::kPoints: return code<3, int32_t, NoGuide<3>>();
+      default: return code<4, int64_t, NoGuide<4>>();
     }
   }
 
-  template <class Coder>
-  Error components() {
-    switch (format.components) {
-      case 1: return code<1, int64_t, Coder, NoGuide<1>>();
-      case 2: return code<2, int64_t, Coder, NoGuide<2>>();
-      case 3: return code<3, int64_t, Coder, NoGuide<3>>();
-      default: return code<4, int64_t, Coder, NoGuide<4>>();
-    }
-  }
-
-  template <int C, class T, class Coder, class Guide>
+  template <int C, class T, class Guide>
   Error code() {
-    SitePredictor<Port, C, T, Coder, Guide> predictor(port, sites.graph, sites.places, format.max,
-                                                      format.kind == ValueKind::kPoints, format.echoes);
-    const Error error = everySite([&] {
-      const Index site = predictor.next();
-      predictor.code(site, std::span<int32_t, C>(&values[size_t{site} * C], size_t{C}));
-    });
+    values::Residuals residuals(format.profile == ValueProfile::kSmall, format.profile == ValueProfile::kDefault);
+    SitePredictor<Port, C, T, Guide> predictor(
+        port, sites.graph, sites.places,
+        {format.components, format.max, format.kind == ValueKind::kPoints, format.echoes}, residuals);
+    const Error error = everySite([&] { predictor.code(values); });
     if (error != Error::kNone) return error;
     return predictor.damaged() ? Error::kMalformed : Error::kNone;
   }
@@ -215,7 +192,7 @@ bool encodeSome(const ValueSites& sites, const ValueFormat& format, std::span<co
   }
   head = out.bytes().size();
   ValueWriter port;
-  (void)Run<ValueWriter>{port, sites, coded, scratch, most}.profile();
+  (void)Run<ValueWriter>{port, sites, coded, scratch, most}.numbers();
   std::move(port).finish(out);
   return true;
 }
@@ -251,7 +228,7 @@ Result<std::vector<int32_t>> decodeValues(const ValueSites& sites, const ValueFo
   }
   std::vector<int32_t> values(size_t{sites.graph.siteCount()} * format.components, 0);
   const Error error = readPort(in, [&](ValueReader& port) {
-    return Run<ValueReader>{port, sites, coded, values}.profile();
+    return Run<ValueReader>{port, sites, coded, values}.numbers();
   });
   if (error != Error::kNone) return error;
   if (ranks && !fromRanks(*ranks, values)) return Error::kMalformed;

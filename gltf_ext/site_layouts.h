@@ -64,14 +64,14 @@ class SiteLayouts {
     layout->wedges = whole_      ? WedgeSites{{}, topology_.wedge_count}
                      : positions ? joinVertices(mesh, topology_.wedges, topology_.wedge_count)
                                  : joinWedges(mesh, topology_.wedges, topology_.wedge_count, seams);
-    std::vector<Index> own;
-    std::span<const Index> sites = mesh.umbrellas;
-    if (!whole_) {
-      own.reserve(sites.size());
-      for (const Index wedge : topology_.wedges) own.push_back(layout->wedges.site_of[wedge]);
-      sites = own;
+    if (whole_) {
+      layout->graph.emplace(mesh);
+      return layout;
     }
-    layout->graph.emplace(mesh, sites, layout->wedges.count);
+    std::vector<Index> sites;
+    sites.reserve(mesh.umbrellas.size());
+    for (const Index wedge : topology_.wedges) sites.push_back(layout->wedges.site_of[wedge]);
+    layout->graph.emplace(mesh, std::move(sites), layout->wedges.count);
     return layout;
   }
 

@@ -19,8 +19,9 @@ constexpr NumeralSystem kBinary, kSixDigits{10, 6, -12, 5}, kMillionths{10, 9, -
 uint32_t bitsOf(double value) { return std::bit_cast<uint32_t>(static_cast<float>(value)); }
 
 struct Sites {
-  explicit Sites(const Encoded& encoded)
-      : graph(encoded.connectivity, vertices(encoded.connectivity), encoded.connectivity.vertex_count) {}
+  explicit Sites(Encoded coded)
+      : encoded(std::move(coded)),
+        graph(encoded.connectivity, vertices(encoded.connectivity), encoded.connectivity.vertex_count) {}
   Sites(const Sites&) = delete;
 
   static std::vector<Index> vertices(const Connectivity& mesh) {
@@ -29,13 +30,14 @@ struct Sites {
     return list;
   }
 
+  const Encoded encoded;
   ValueGraph graph;
 };
 
 Sites sitesOf(const Polygons& mesh) {
-  const Result<Encoded> encoded = encode(mesh);
+  Result<Encoded> encoded = encode(mesh);
   EXPECT_TRUE(encoded);
-  return Sites(*encoded);
+  return Sites(*std::move(encoded));
 }
 
 NumeralFormat formatOf(int components, const NumeralSystem& system, Relation relation = Relation::kNone) {

@@ -8,7 +8,7 @@
 
 #include "codec/bytes.h"
 #include "codec/encode.h"
-#include "codec/value_order.h"
+#include "codec/value_surroundings.h"
 #include "tests/shapes/shapes.h"
 
 namespace tutte {
@@ -18,8 +18,9 @@ constexpr ValueProfile kProfiles[] = {ValueProfile::kFast, ValueProfile::kDefaul
 
 /// A mesh with one site per vertex.
 struct Sites {
-  explicit Sites(const Encoded& encoded)
-      : graph(encoded.connectivity, vertices(encoded.connectivity), encoded.connectivity.vertex_count),
+  explicit Sites(Encoded coded)
+      : encoded(std::move(coded)),
+        graph(encoded.connectivity, vertices(encoded.connectivity), encoded.connectivity.vertex_count),
         vertex_order(encoded.vertex_order) {}
   Sites(const Sites&) = delete;
 
@@ -29,14 +30,15 @@ struct Sites {
     return vertices;
   }
 
+  const Encoded encoded;
   ValueGraph graph;
-  std::vector<Index> vertex_order;
+  const std::vector<Index>& vertex_order;
 };
 
 Sites vertexSites(const Polygons& mesh) {
-  const Result<Encoded> encoded = encode(mesh);
+  Result<Encoded> encoded = encode(mesh);
   EXPECT_TRUE(encoded);
-  return Sites(*encoded);
+  return Sites(*std::move(encoded));
 }
 
 /// Values that are smooth where neighbours have near numbers, with some noise.
@@ -62,16 +64,16 @@ std::vector<uint8_t> bytesOf(const Sites& sites, const ValueFormat& format, std:
 TEST(Values, OrderVisitsEverySiteOnce) {
   for (const auto& [name, shape] : shapes::allShapes()) {
     const Sites sites = vertexSites(shape.mesh);
-    SiteOrder order(sites.graph.siteCount());
-    Urgencies urgencies;
+    values::SurroundingsFinder finder(sites.graph, true);
+    std::vector<bool> known(sites.graph.siteCount());
     for (Index i = 0; i < sites.graph.siteCount(); ++i) {
-      const Index site = order.next();
-      ASSERT_LT(site, sites.graph.siteCount()) << name;
-      ASSERT_FALSE(order.known(site)) << name;
-      urgencies.clear();
-      sites.graph.forCorners(site, [&](Index corner) { addUrgencies(sites.graph, corner, order, urgencies); });
-      order.urge(urgencies.entries());
-      order.learn(site, false);
+      const values::Surroundings& around = finder.next();
+      ASSERT_LT(around.site, sites.graph.siteCount()) << name;
+      ASSERT_FALSE(known[around.site]) << name;
+      ASSERT_EQ(finder.ranks()[around.site], i) << name;
+      for (const Index rank : around.neighbours) ASSERT_LT(rank, i) << name;
+      for (const values::Term& edge : around.edges) ASSERT_TRUE(known[edge.x] && known[edge.y]) << name;
+      known[around.site] = true;
     }
   }
 }
