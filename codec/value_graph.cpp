@@ -37,8 +37,8 @@ class Partition {
 
 }  // namespace
 
-ValueGraph::ValueGraph(const Connectivity& mesh)
-    : sites_(mesh.umbrellas), twins_(mesh.twins), starts_(size_t{mesh.umbrella_count} + 1, 0) {
+ValueGraph::ValueGraph(const Connectivity& mesh, Index site_count)
+    : sites_(mesh.umbrellas), twins_(mesh.twins), starts_(size_t{site_count} + 1, 0) {
   listShapes(mesh.face_degrees);
   listCorners();
 }

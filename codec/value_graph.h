@@ -42,8 +42,9 @@ struct AnyFaces {
 /// In a face of more than 2048 corners, the first one's predecessor and the last one's successor are these themselves.
 class ValueGraph {
  public:
-  /// The sites are the umbrellas. The mesh must stay as and where it is. O(corners), as the other one.
-  explicit ValueGraph(const Connectivity& mesh);
+  /// The sites are the umbrellas, and behind them those that no corner uses. The mesh must stay as and where it is.
+  /// O(corners), as the other one.
+  ValueGraph(const Connectivity& mesh, Index site_count);
   /// `sites` gives a number below `site_count` for every corner.
   ValueGraph(const Connectivity& mesh, std::vector<Index> sites, Index site_count);
   ValueGraph(ValueGraph&&) = default;

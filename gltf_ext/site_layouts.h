@@ -65,7 +65,7 @@ class SiteLayouts {
                      : positions ? joinVertices(mesh, topology_.wedges, topology_.wedge_count)
                                  : joinWedges(mesh, topology_.wedges, topology_.wedge_count, seams);
     if (whole_) {
-      layout->graph.emplace(mesh);
+      layout->graph.emplace(mesh, layout->wedges.count);
       return layout;
     }
     std::vector<Index> sites;
