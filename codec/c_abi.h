@@ -135,7 +135,7 @@ typedef enum tutte_array {
   TUTTE_CODED_CORNERS = 2, /**< per corner: its number in the coded orientation, which the arrays 3 and 4 use */
   TUTTE_UMBRELLAS = 3,     /**< per coded corner: its umbrella */
   TUTTE_TWINS = 4,         /**< per coded corner: the corner whose edge is the other side of its edge, or NONE */
-  TUTTE_VERTICES = 5,      /**< per umbrella: its vertex; empty: the same number */
+  TUTTE_VERTICES = 5,      /**< per umbrella: its vertex (in a welded payload: its point); empty: the same number */
   TUTTE_FLIPPED = 6,       /**< per face: 1 where the coded orientation is the reverse; empty: nowhere */
 
   /* Of an encoded mesh. */

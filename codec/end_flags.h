@@ -19,14 +19,17 @@ namespace tutte {
 template <class Port>
 class EndFlags {
  public:
-  /// Only ends with candidates[end] == 1 are coded; the others are 0. All arguments must outlive this object.
-  EndFlags(Port& port, const Connectivity& mesh, const UmbrellaLinks& links, std::span<const uint8_t> candidates)
-      : port_(port), mesh_(mesh), links_(links), candidates_(candidates), around_(mesh.umbrella_count) {
+  /// Only ends with candidates[end] == 1 are coded; of the others, those with given[end] == 1 are known to be 1 from
+  /// the start (no span: none), the rest are 0. All arguments must outlive this object.
+  EndFlags(Port& port, const Connectivity& mesh, const UmbrellaLinks& links, std::span<const uint8_t> candidates,
+           std::span<const uint8_t> given = {})
+      : port_(port), mesh_(mesh), links_(links), candidates_(candidates), given_(given), around_(mesh.umbrella_count) {
     for (Index u = 0; u < mesh.umbrella_count; ++u) around_[u].open = links.open[u];
     for (Index corner = 0; corner < candidates.size(); ++corner) {
       Around& around = around_[mesh.umbrellas[corner]];
       around.left += candidates[corner];
       if (around.corners < kMostCorners) ++around.corners;
+      if (!given.empty() && given[corner]) around.parted = static_cast<uint8_t>(std::min(around.parted + 1, 2));
     }
     quiet_.fill(values::Chance(65536 / 16));
   }
@@ -34,6 +37,9 @@ class EndFlags {
   /// Writer: `flags` are coded. Reader: `flags` are filled in. One flag per corner.
   void code(std::vector<uint8_t>& flags) {
     known_.assign(flags.size(), 0);
+    for (size_t end = 0; end < given_.size(); ++end) {
+      if (given_[end]) known_[end] = 2, flags[end] = 1;
+    }
     for (Index corner = 0; corner < flags.size(); ++corner) {
       const Index twin = mesh_.twins[corner];
       if (twin == kNone || twin < corner) continue;
@@ -102,7 +108,7 @@ class EndFlags {
   Port& port_;
   const Connectivity& mesh_;
   const UmbrellaLinks& links_;
-  std::span<const uint8_t> candidates_;
+  std::span<const uint8_t> candidates_, given_;
   std::vector<Around> around_;
   std::vector<uint8_t> known_;
   std::array<values::Chance, 16> quiet_;

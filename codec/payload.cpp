@@ -10,7 +10,8 @@ namespace {
 constexpr std::array<uint8_t, 4> kMagic = {'T', 'U', 'T', 'T'};
 constexpr uint8_t kVersion = 0;
 constexpr uint32_t kTriangleCountFlag = 1u << kSectionCount;
-constexpr uint32_t kKnownFlags = 2 * kTriangleCountFlag - 1;
+constexpr uint32_t kWeldedFlag = 2 * kTriangleCountFlag;
+constexpr uint32_t kKnownFlags = 2 * kWeldedFlag - 1;
 
 constexpr uint32_t flagOf(Section section) { return 1u << static_cast<int>(section); }
 
@@ -33,6 +34,9 @@ Index raised(uint32_t stored, Index by) {
 bool plausible(const Header& header) {
   const PayloadCounts& counts = header.counts;
   if (counts.wedges < counts.vertices || counts.groups == 0) return false;
+  const bool welded = header.flags & kWeldedFlag;
+  if (welded && !(header.flags & flagOf(Section::kSeams))) return false;
+  if (welded && (counts.welded == 0 || counts.welded >= counts.vertices)) return false;
   if ((header.flags & flagOf(Section::kAttributes)) && counts.attributes == 0) return false;
   if (counts.attributes > kMaxAttributes) return false;
   if ((header.flags & kTriangleCountFlag) && counts.triangles == usualTriangles(counts)) return false;
@@ -44,6 +48,7 @@ Header readCounts(ByteReader& reader) {
   PayloadCounts& counts = header.counts;
   header.flags = reader.varint();
   counts.vertices = reader.varint();
+  if (header.flags & kWeldedFlag) counts.welded = raised(reader.varint(), 1);
   counts.wedges = header.flags & flagOf(Section::kSeams) ? raised(reader.varint(), counts.vertices) : counts.vertices;
   counts.faces = reader.varint();
   counts.corners = reader.varint();
@@ -111,6 +116,7 @@ bool checksumsMatch(const PayloadView& view, const Table& table, uint32_t header
 
 uint32_t flagsOf(const PayloadParts& parts) {
   uint32_t flags = parts.counts.triangles == usualTriangles(parts.counts) ? 0 : kTriangleCountFlag;
+  if (parts.counts.welded > 0) flags |= kWeldedFlag;
   for (int s = 0; s < kSectionCount; ++s) flags |= parts.present[s] ? 1u << s : 0u;
   return flags;
 }
@@ -120,6 +126,7 @@ void writeHeader(ByteWriter& writer, const PayloadCounts& counts, uint32_t flags
   writer.byte(kVersion);
   writer.varint(flags);
   writer.varint(counts.vertices);
+  if (flags & kWeldedFlag) writer.varint(counts.welded - 1);
   if (flags & flagOf(Section::kSeams)) writer.varint(counts.wedges - counts.vertices);
   writer.varint(counts.faces);
   writer.varint(counts.corners);

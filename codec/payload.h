@@ -2,8 +2,9 @@
 // The container of a payload: counts, a table of sections, the sections. It knows nothing of what is in them.
 //
 //   magic "TUTT", version (1 byte, 0)
-//   varint  flags: bit s (0..5) section s is present, bit 6 the triangle count is stored
+//   varint  flags: bit s (0..5) section s is present, bit 6 the triangle count is stored, bit 7 the mesh is welded
 //   varint  vertices
+//   varint  welded - 1                            only with flag bit 7; otherwise 0 are welded
 //   varint  wedges - vertices                     only with section SEAMS
 //   varint  faces
 //   varint  corners
@@ -28,10 +29,11 @@
 namespace tutte {
 
 enum class Section : uint8_t {
-  kConnectivity = 0,   ///< bytes of encode(); always present
-  kSeams = 1,          ///< wedges, and which attributes differ between them; absent when each vertex is its own wedge
-  kGroups = 2,         ///< the group of each face; absent when there is one group
-  kRings = 3,          ///< interior rings of polygons; absent when there are none
+  kConnectivity = 0,  ///< bytes of encode(); always present
+  kSeams = 1,   ///< wedges, and which attributes differ between them; absent when each vertex is its own wedge and none
+                ///< welded
+  kGroups = 2,  ///< the group of each face; absent when there is one group
+  kRings = 3,   ///< interior rings of polygons; absent when there are none
   kTriangulation = 4,  ///< triangles of the polygons; absent when every polygon is a fan from its first corner
   kAttributes = 5,     ///< attribute values; its first byte says which coder made it
 };
@@ -52,7 +54,11 @@ struct PayloadCounts {
   Index triangles = 0;
   Index groups = 1;      ///< <= max(1, faces)
   Index attributes = 0;  ///< <= kMaxAttributes
+  /// By how many the connectivity has fewer vertices (points, in a welded mesh) than the mesh: < max(1, vertices). The
+  /// section SEAMS tells them apart.
+  Index welded = 0;
 
+  Index points() const { return vertices - welded; }
   bool operator==(const PayloadCounts&) const = default;
 };
 

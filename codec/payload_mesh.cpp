@@ -13,14 +13,22 @@ namespace {
 Error decodeConnectivity(const PayloadView& payload, PayloadMesh& mesh) {
   const PayloadCounts& counts = payload.counts;
   Result<Connectivity> connectivity =
-      decode(payload[Section::kConnectivity], {counts.vertices, counts.faces, counts.corners});
+      decode(payload[Section::kConnectivity], {counts.points(), counts.faces, counts.corners});
   if (!connectivity) return connectivity.error();
   mesh.connectivity = *std::move(connectivity);
   mesh.polygons = polygonsOf(mesh.connectivity, &mesh.coded_corners);
-  const bool as_claimed = mesh.polygons.vertex_count == counts.vertices &&
+  const bool as_claimed = mesh.polygons.vertex_count == counts.points() &&
                           mesh.polygons.face_degrees.size() == counts.faces &&
                           mesh.polygons.corners.size() == counts.corners;
   return as_claimed ? Error::kNone : Error::kCountMismatch;
+}
+
+/// Values per coded corner, by corner of the mesh.
+std::vector<Index> inMeshOrder(const std::vector<Index>& values, const std::vector<Index>& coded_corners) {
+  std::vector<Index> result;
+  result.reserve(coded_corners.size());
+  for (const Index corner : coded_corners) result.push_back(values[corner]);
+  return result;
 }
 
 Error decodeWedges(const PayloadView& payload, PayloadMesh& mesh) {
@@ -28,12 +36,18 @@ Error decodeWedges(const PayloadView& payload, PayloadMesh& mesh) {
     mesh.seams = withoutSeams(mesh.connectivity, payload.counts.attributes);
     return Error::kNone;
   }
-  Result<Seams> seams = decodeSeams(mesh.connectivity, payload[Section::kSeams], payload.counts.attributes);
+  const PayloadCounts& counts = payload.counts;
+  Result<Seams> seams = decodeSeams(mesh.connectivity, counts.welded > 0, payload[Section::kSeams], counts.attributes);
   if (!seams) return seams.error();
   mesh.seams = *std::move(seams);
-  if (mesh.seams.wedge_count != payload.counts.wedges) return Error::kCountMismatch;
-  mesh.wedges.reserve(mesh.coded_corners.size());
-  for (const Index corner : mesh.coded_corners) mesh.wedges.push_back(mesh.seams.wedges[corner]);
+  if (mesh.seams.wedge_count != counts.wedges || mesh.seams.vertex_count != counts.vertices) {
+    return Error::kCountMismatch;
+  }
+  mesh.wedges = inMeshOrder(mesh.seams.wedges, mesh.coded_corners);
+  if (counts.welded > 0) {
+    mesh.polygons.corners = inMeshOrder(mesh.seams.vertices, mesh.coded_corners);
+    mesh.polygons.vertex_count = counts.vertices;
+  }
   return Error::kNone;
 }
 

@@ -34,28 +34,29 @@ std::vector<Index> findRuns(const UmbrellaLinks& links, std::span<const uint8_t>
   return run_of;
 }
 
-/// Codes the wedge of each run, as its number within the vertex. A vertex's first run has its first wedge; a later one
-/// has a new wedge or one that an earlier run of the vertex has.
+/// Codes the part of each run, as its number within the whole. A whole's first run has its first part; a later one has
+/// a new part or one that an earlier run of the whole has.
 template <class Port>
-class RunWedges {
+class RunParts {
  public:
-  RunWedges(Port& port, const Connectivity& mesh)
-      : port_(port), mesh_(mesh), used_(mesh.vertex_count), seen_(mesh.umbrella_count) {}
+  RunParts(Port& port, const Connectivity& mesh, std::span<const Index> wholes, Index whole_count)
+      : port_(port), mesh_(mesh), wholes_(wholes), used_(whole_count), seen_(mesh.umbrella_count) {}
 
-  Index code(Index first_corner, Index wedge) {
-    Index& used = used_[mesh_.vertexOf(first_corner)];
+  Index code(Index first_corner, Index part) {
+    Index& used = used_[wholes_[first_corner]];
     uint8_t& seen = seen_[mesh_.umbrellas[first_corner]];
-    const bool reused = used != 0 && reuse_[seen].code(port_, wedge < used);
+    const bool reused = used != 0 && reuse_[seen].code(port_, part < used);
     seen = 1;
-    return reused ? port_.uniform(used, wedge) : used++;
+    return reused ? port_.uniform(used, part) : used++;
   }
 
-  /// Afterwards: per vertex, how many wedges its corners use.
+  /// Afterwards: per whole, how many parts its corners use.
   const std::vector<Index>& used() const { return used_; }
 
  private:
   Port& port_;
   const Connectivity& mesh_;
+  const std::span<const Index> wholes_;
   std::vector<Index> used_;
   std::vector<uint8_t> seen_;
   std::array<Bit, 2> reuse_;  ///< is it another run of an umbrella that had one before?
@@ -97,24 +98,102 @@ std::vector<uint8_t> differingEnds(const UmbrellaLinks& links, std::span<const I
   return ends;
 }
 
-std::vector<uint8_t> partedEnds(const UmbrellaLinks& links, std::span<const Index> wedges) {
-  std::vector<uint8_t> parted(wedges.size());
-  for (size_t c = 0; c < wedges.size(); ++c) {
-    parted[c] = links.across[c] != kNone && wedges[c] != wedges[links.across[c]];
+std::vector<uint8_t> partedEnds(const UmbrellaLinks& links, std::span<const Index> parts) {
+  std::vector<uint8_t> parted(parts.size());
+  for (size_t c = 0; c < parts.size(); ++c) {
+    parted[c] = links.across[c] != kNone && parts[c] != parts[links.across[c]];
   }
   return parted;
 }
 
-/// Turns numbers within vertices into wedges. An isolated vertex has one wedge.
-void numberRuns(const Connectivity& mesh, std::span<const Index> run_of, std::span<const Index> local,
-                std::span<const Index> used, Seams& seams) {
-  std::vector<Index> base(mesh.vertex_count);
-  for (Index vertex = 0; vertex < mesh.vertex_count; ++vertex) {
-    base[vertex] = seams.wedge_count;
-    seams.wedge_count += std::max(used[vertex], 1u);
+/// A level of the structure: per coded corner a number below `count`. The connectivity's vertices are one; each further
+/// level parts the one before it.
+struct Level {
+  std::vector<Index> of_corner;
+  Index count = 0;
+  std::vector<uint8_t> parted = {};  ///< ends where it differs; empty: none
+};
+
+/// The ends at which a further level may differ and `level` does not.
+std::vector<uint8_t> joinedEnds(const Connectivity& mesh, const Level& level) {
+  std::vector<uint8_t> ends = interiorEnds(mesh);
+  for (size_t end = 0; end < level.parted.size(); ++end) ends[end] &= static_cast<uint8_t>(1 - level.parted[end]);
+  return ends;
+}
+
+Level firstLevel(const Connectivity& mesh) { return {verticesOf(mesh), mesh.vertex_count}; }
+
+/// Codes the parts of `whole`, and returns at which ends they differ.
+std::vector<uint8_t> encodeLevel(RangeWriter& port, const Connectivity& mesh, const UmbrellaLinks& links,
+                                 const Level& whole, std::span<const Index> parts) {
+  std::vector<uint8_t> parted = partedEnds(links, parts);
+  EndFlags<RangeWriter>(port, mesh, links, joinedEnds(mesh, whole), whole.parted).code(parted);
+  std::vector<Index> firsts;
+  findRuns(links, parted, firsts);
+  RunParts<RangeWriter> runs(port, mesh, whole.of_corner, whole.count);
+  std::vector<Index> base(whole.count, kNone);
+  for (const Index first : firsts) {
+    Index& start = base[whole.of_corner[first]];
+    if (start == kNone) start = parts[first];
+    runs.code(first, parts[first] - start);
   }
-  seams.wedges.resize(run_of.size());
-  for (Index c = 0; c < run_of.size(); ++c) seams.wedges[c] = base[mesh.vertexOf(c)] + local[run_of[c]];
+  return parted;
+}
+
+/// Turns numbers within wholes into parts. A whole without corners has one part.
+Level numberRuns(const Level& whole, std::span<const Index> run_of, std::span<const Index> local,
+                 std::span<const Index> used) {
+  Level parts{std::vector<Index>(run_of.size()), 0};
+  std::vector<Index> base(whole.count);
+  for (Index w = 0; w < whole.count; ++w) {
+    base[w] = parts.count;
+    parts.count += std::max(used[w], 1u);
+  }
+  for (size_t c = 0; c < run_of.size(); ++c) parts.of_corner[c] = base[whole.of_corner[c]] + local[run_of[c]];
+  return parts;
+}
+
+Result<Level> decodeLevel(RangeReader& port, const Connectivity& mesh, const UmbrellaLinks& links, const Level& whole) {
+  std::vector<uint8_t> parted(mesh.umbrellas.size());
+  EndFlags<RangeReader>(port, mesh, links, joinedEnds(mesh, whole), whole.parted).code(parted);
+  std::vector<Index> firsts;
+  const std::vector<Index> run_of = findRuns(links, parted, firsts);
+  RunParts<RangeReader> runs(port, mesh, whole.of_corner, whole.count);
+  std::vector<Index> local(firsts.size());
+  for (size_t run = 0; run < firsts.size(); ++run) local[run] = runs.code(firsts[run], 0);
+  Level parts = numberRuns(whole, run_of, local, runs.used());
+  // A damaged stream may give the same part to two runs that it has parted, or part a run from itself.
+  if (partedEnds(links, parts.of_corner) != parted) return Error::kMalformed;
+  parts.parted = std::move(parted);
+  return parts;
+}
+
+/// The levels below the connectivity's vertices: those of a welded mesh, then wedges.
+struct Levels {
+  Level vertices, wedges;
+};
+
+/// In a welded mesh wedges may be vertices; in others they are not, or there would be no section.
+template <class Port>
+bool codeWedgesDiffer(Port& port, bool welded, bool differ) {
+  return !welded || port.code(32768, differ);
+}
+
+Result<Levels> decodeLevels(RangeReader& port, const Connectivity& mesh, const UmbrellaLinks& links, bool welded) {
+  Levels levels{firstLevel(mesh), {}};
+  if (welded) {
+    Result<Level> vertices = decodeLevel(port, mesh, links, levels.vertices);
+    if (!vertices) return vertices.error();
+    levels.vertices = *std::move(vertices);
+  }
+  if (!codeWedgesDiffer(port, welded, false)) {
+    levels.wedges = levels.vertices;
+    return levels;
+  }
+  Result<Level> wedges = decodeLevel(port, mesh, links, levels.vertices);
+  if (!wedges) return wedges.error();
+  levels.wedges = *std::move(wedges);
+  return levels;
 }
 
 void decodeAttributeSeams(RangeReader& port, const Connectivity& mesh, const UmbrellaLinks& links,
@@ -131,39 +210,35 @@ void decodeAttributeSeams(RangeReader& port, const Connectivity& mesh, const Umb
 
 }  // namespace
 
-bool wedgesAreVertices(const Connectivity& mesh, std::span<const Index> wedges) {
-  for (Index corner = 0; corner < wedges.size(); ++corner) {
-    if (wedges[corner] != mesh.vertexOf(corner)) return false;
+std::vector<Index> verticesOf(const Connectivity& mesh) {
+  std::vector<Index> vertices = mesh.umbrellas;
+  if (!mesh.vertices.empty()) {
+    for (Index& umbrella : vertices) umbrella = mesh.vertices[umbrella];
   }
-  return true;
+  return vertices;
 }
 
 Seams withoutSeams(const Connectivity& mesh, Index attribute_count) {
   Seams seams;
-  seams.wedge_count = mesh.vertex_count;
-  seams.wedges = mesh.umbrellas;
-  if (!mesh.vertices.empty()) {
-    for (Index& wedge : seams.wedges) wedge = mesh.vertices[wedge];
-  }
+  seams.wedges = verticesOf(mesh);
+  seams.wedge_count = seams.vertex_count = mesh.vertex_count;
   seams.attribute_seams.resize(attribute_count);
   return seams;
 }
 
-std::vector<uint8_t> encodeSeams(const Connectivity& mesh, std::span<const Index> wedges,
-                                 std::span<const ValueView> attributes) {
+std::vector<uint8_t> encodeSeams(const Connectivity& mesh, std::span<const Index> vertices,
+                                 std::span<const Index> wedges, std::span<const ValueView> attributes) {
   const UmbrellaLinks links(mesh);
-  std::vector<uint8_t> parted = partedEnds(links, wedges);
+  const bool welded = !vertices.empty();
   RangeWriter port;
-  EndFlags<RangeWriter>(port, mesh, links, interiorEnds(mesh)).code(parted);
-
-  std::vector<Index> firsts;
-  findRuns(links, parted, firsts);
-  RunWedges<RangeWriter> runs(port, mesh);
-  std::vector<Index> base(mesh.vertex_count, kNone);
-  for (const Index first : firsts) {
-    Index& start = base[mesh.vertexOf(first)];
-    if (start == kNone) start = wedges[first];
-    runs.code(first, wedges[first] - start);
+  Level level = firstLevel(mesh);
+  if (welded) {
+    std::vector<uint8_t> parted = encodeLevel(port, mesh, links, level, vertices);
+    level = {{vertices.begin(), vertices.end()}, std::ranges::max(vertices) + 1, std::move(parted)};
+  }
+  std::vector<uint8_t> parted = level.parted;
+  if (codeWedgesDiffer(port, welded, !std::ranges::equal(vertices, wedges))) {
+    parted = encodeLevel(port, mesh, links, level, wedges);
   }
   for (size_t slot = 1; slot < attributes.size(); ++slot) {
     std::vector<uint8_t> ends = differingEnds(links, wedges, parted, attributes[slot]);
@@ -174,26 +249,21 @@ std::vector<uint8_t> encodeSeams(const Connectivity& mesh, std::span<const Index
   return std::move(port).finish();
 }
 
-Result<Seams> decodeSeams(const Connectivity& mesh, std::span<const uint8_t> bytes, Index attribute_count) {
+Result<Seams> decodeSeams(const Connectivity& mesh, bool welded, std::span<const uint8_t> bytes,
+                          Index attribute_count) {
   const UmbrellaLinks links(mesh);
-  std::vector<uint8_t> parted(mesh.umbrellas.size());
   RangeReader port(bytes);
-  EndFlags<RangeReader>(port, mesh, links, interiorEnds(mesh)).code(parted);
-
-  std::vector<Index> firsts;
-  const std::vector<Index> run_of = findRuns(links, parted, firsts);
-  RunWedges<RangeReader> runs(port, mesh);
-  std::vector<Index> local(firsts.size());
-  for (size_t run = 0; run < firsts.size(); ++run) local[run] = runs.code(firsts[run], 0);
-
+  Result<Levels> levels = decodeLevels(port, mesh, links, welded);
+  if (!levels) return levels.error();
   Seams seams;
-  numberRuns(mesh, run_of, local, runs.used(), seams);
-  // A damaged stream may give the same wedge to two runs that it has parted, or part a run from itself.
-  if (partedEnds(links, seams.wedges) != parted) return Error::kMalformed;
   seams.attribute_seams.resize(attribute_count);
-  decodeAttributeSeams(port, mesh, links, parted, seams.attribute_seams);
+  decodeAttributeSeams(port, mesh, links, levels->wedges.parted, seams.attribute_seams);
   if (port.overrun()) return Error::kTruncated;
   if (port.trailing()) return Error::kTrailingBytes;
+  seams.wedges = std::move(levels->wedges.of_corner);
+  seams.wedge_count = levels->wedges.count;
+  if (welded) seams.vertices = std::move(levels->vertices.of_corner);
+  seams.vertex_count = levels->vertices.count;
   return seams;
 }
 

@@ -3,48 +3,44 @@
 namespace tutte {
 namespace {
 
-/// Per wedge of the caller its vertex, and how many wedges each vertex has.
-struct Owners {
-  std::vector<Index> vertex_of;
-  std::vector<Index> wedges_of;
-};
-
-Result<Owners> findOwners(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count) {
-  Owners owners{std::vector<Index>(wedge_count, kNone), std::vector<Index>(mesh.vertex_count, 0)};
-  for (Index corner = 0; corner < wedges.size(); ++corner) {
-    if (wedges[corner] >= wedge_count) return Error::kIndexOutOfRange;
-    Index& vertex = owners.vertex_of[wedges[corner]];
-    if (vertex == mesh.vertexOf(corner)) continue;
-    if (vertex != kNone) return Error::kMalformed;
-    vertex = mesh.vertexOf(corner);
-    ++owners.wedges_of[vertex];
+/// How many parts each whole has.
+Result<std::vector<Index>> countParts(std::span<const Index> wholes, Index whole_count, std::span<const Index> parts,
+                                      Index part_count) {
+  std::vector<Index> whole_of(part_count, kNone), parts_of(whole_count, 0);
+  for (size_t corner = 0; corner < parts.size(); ++corner) {
+    if (parts[corner] >= part_count) return Error::kIndexOutOfRange;
+    Index& whole = whole_of[parts[corner]];
+    if (whole == wholes[corner]) continue;
+    if (whole != kNone) return Error::kMalformed;
+    whole = wholes[corner];
+    ++parts_of[whole];
   }
-  return owners;
+  return parts_of;
 }
 
 }  // namespace
 
-Result<WedgeNumbering> numberWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count) {
-  if (wedges.size() != mesh.umbrellas.size()) return Error::kCountMismatch;
-  Result<Owners> owners = findOwners(mesh, wedges, wedge_count);
-  if (!owners) return owners.error();
-  std::vector<Index>& free = owners->wedges_of;
+Result<PartNumbering> numberParts(std::span<const Index> wholes, Index whole_count, std::span<const Index> parts,
+                                  Index part_count) {
+  if (wholes.size() != parts.size()) return Error::kCountMismatch;
+  Result<std::vector<Index>> free = countParts(wholes, whole_count, parts, part_count);
+  if (!free) return free.error();
   Index total = 0;
-  for (Index& slot : free) {
+  for (Index& slot : *free) {
     const Index count = slot == 0 ? 1 : slot;
     slot = total;
     total += count;
   }
 
-  WedgeNumbering numbering{std::vector<Index>(wedges.size()), std::vector<Index>(total, kNone)};
-  std::vector<Index> coded(wedge_count, kNone);
-  for (Index corner = 0; corner < wedges.size(); ++corner) {
-    Index& wedge = coded[wedges[corner]];
-    if (wedge == kNone) {
-      wedge = free[mesh.vertexOf(corner)]++;
-      numbering.order[wedge] = wedges[corner];
+  PartNumbering numbering{std::vector<Index>(parts.size()), std::vector<Index>(total, kNone)};
+  std::vector<Index> coded(part_count, kNone);
+  for (size_t corner = 0; corner < parts.size(); ++corner) {
+    Index& part = coded[parts[corner]];
+    if (part == kNone) {
+      part = (*free)[wholes[corner]]++;
+      numbering.order[part] = parts[corner];
     }
-    numbering.wedges[corner] = wedge;
+    numbering.parts[corner] = part;
   }
   return numbering;
 }

@@ -1,5 +1,6 @@
 #pragma once
 // Wedges: what a glTF file calls vertices. All corners of a wedge belong to one vertex and share all attribute values.
+// In a welded mesh, vertices are parts of points as wedges are parts of vertices.
 
 #include <span>
 #include <vector>
@@ -9,15 +10,17 @@
 
 namespace tutte {
 
-/// Wedges in coded order: by vertex, and within a vertex by first coded corner. So a mesh without seams has each
-/// vertex's number for its wedge, and the one wedge of each isolated vertex comes last.
-struct WedgeNumbering {
-  std::vector<Index> wedges;  ///< per coded corner
-  std::vector<Index> order;   ///< coded wedge -> the caller's wedge; kNone for wedges of isolated vertices
+/// Wedges (parts) in coded order: by vertex (whole), and within a vertex by first coded corner. So a mesh without seams
+/// has each vertex's number for its wedge, and the one wedge of each isolated vertex comes last.
+struct PartNumbering {
+  std::vector<Index> parts;  ///< per coded corner
+  std::vector<Index> order;  ///< coded part -> the caller's part; kNone for those of wholes without corners
 };
 
-/// Puts wedges into coded order. `wedges` holds the caller's wedge of each coded corner, below `wedge_count`. O(n).
-/// Errors: kIndexOutOfRange; kMalformed when one wedge is used by two vertices.
-Result<WedgeNumbering> numberWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count);
+/// Puts parts into coded order. Per coded corner, `wholes` holds its whole in coded order, below `whole_count`, and
+/// `parts` the caller's part, below `part_count`. O(n).
+/// Errors: kCountMismatch; kIndexOutOfRange; kMalformed when one part is used by two wholes.
+Result<PartNumbering> numberParts(std::span<const Index> wholes, Index whole_count, std::span<const Index> parts,
+                                  Index part_count);
 
 }  // namespace tutte

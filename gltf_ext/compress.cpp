@@ -14,6 +14,7 @@
 #include "gltf_ext/polygons.h"
 #include "gltf_ext/primitive_writer.h"
 #include "gltf_ext/references.h"
+#include "gltf_ext/welding.h"
 
 namespace tutte {
 namespace {
@@ -123,8 +124,8 @@ class Compressor {
     if (groups->faces.empty()) return Done{};
     auto attributes = readAttributes(plan);
     if (!attributes) return attributes.error();
-    const PolygonMesh mesh =
-        weldMesh(std::move(groups->faces), *std::move(attributes), static_cast<Index>(plan.wedge_count));
+    PolygonMesh mesh = weldMesh(std::move(groups->faces), *std::move(attributes), static_cast<Index>(plan.wedge_count));
+    if (!options_.attributes.empty()) joinEqualWedges(mesh);
     PackOptions pack_options = options_.pack;
     pack_options.grid = grid;
     auto packed = pack(mesh, pack_options);

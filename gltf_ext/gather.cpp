@@ -4,6 +4,8 @@
 #include <cstring>
 #include <numeric>
 
+#include "gltf_ext/distinct.h"
+
 namespace tutte {
 namespace {
 
@@ -29,27 +31,14 @@ void reorder(Attribute& attribute, const std::vector<Index>& order) {
   attribute.data = std::move(data);
 }
 
-/// Per used wedge its vertex, numbered by first appearance.
-std::vector<Index> weld(const Attribute& position, Index used_count, Index& vertex_count) {
-  const size_t size = position.stride();
-  const uint8_t* data = position.data.data();
-  const auto compare = [&](Index a, Index b) { return std::memcmp(data + a * size, data + b * size, size); };
-  std::vector<Index> sorted(used_count);
-  std::iota(sorted.begin(), sorted.end(), 0u);
-  std::sort(sorted.begin(), sorted.end(), [&](Index a, Index b) {
-    const int order = compare(a, b);
-    return order != 0 ? order < 0 : a < b;
-  });
-  std::vector<Index> first(used_count), vertices(used_count);
-  for (Index i = 0; i < used_count; ++i) {
-    const bool same = i > 0 && compare(sorted[i - 1], sorted[i]) == 0;
-    first[sorted[i]] = same ? first[sorted[i - 1]] : sorted[i];
-  }
-  vertex_count = 0;
-  for (Index wedge = 0; wedge < used_count; ++wedge) {
-    vertices[wedge] = first[wedge] == wedge ? vertex_count++ : vertices[first[wedge]];
-  }
-  return vertices;
+/// The vertices of the first wedges, those with corners.
+Distinct weld(const Attribute& position, Index used_count) {
+  const auto value = [&](Index wedge) {
+    return std::span(position.data).subspan(size_t{wedge} * position.stride(), position.stride());
+  };
+  return findDistinct(
+      used_count, [&](Index wedge) { return hashOf(value(wedge), 0); },
+      [&](Index a, Index b) { return std::ranges::equal(value(a), value(b)); });
 }
 
 void appendTriangulation(PolygonMesh& mesh, const PrimitiveFaces& group, Index first_corner) {
@@ -79,7 +68,7 @@ void appendGroup(PolygonMesh& mesh, const PrimitiveFaces& group, Index number) {
 }  // namespace
 
 PolygonMesh weldMesh(std::vector<PrimitiveFaces> groups, std::vector<Attribute> attributes, Index wedge_count) {
-  Index used_count = 0, vertex_count = 0;
+  Index used_count = 0;
   const std::vector<Index> order = usedFirst(groups, wedge_count, used_count);
   std::vector<Index> moved(wedge_count);
   for (Index i = 0; i < wedge_count; ++i) moved[order[i]] = i;
@@ -94,10 +83,10 @@ PolygonMesh weldMesh(std::vector<PrimitiveFaces> groups, std::vector<Attribute> 
   }
   if (!has_holes) mesh.ring_owners.clear();
   for (Attribute& attribute : attributes) reorder(attribute, order);
-  const std::vector<Index> vertices = weld(attributes[0], used_count, vertex_count);
+  const Distinct vertices = weld(attributes[0], used_count);
   mesh.polygons.corners.reserve(mesh.wedges.size());
-  for (const Index wedge : mesh.wedges) mesh.polygons.corners.push_back(vertices[wedge]);
-  mesh.polygons.vertex_count = vertex_count + (wedge_count - used_count);
+  for (const Index wedge : mesh.wedges) mesh.polygons.corners.push_back(vertices.numbers[wedge]);
+  mesh.polygons.vertex_count = static_cast<Index>(vertices.firsts.size()) + (wedge_count - used_count);
   mesh.wedge_count = wedge_count;
   mesh.attributes = std::move(attributes);
   return mesh;

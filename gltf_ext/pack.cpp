@@ -12,6 +12,7 @@
 #include "gltf_ext/attribute_topology.h"
 #include "gltf_ext/mesh_rules.h"
 #include "gltf_ext/triangulate.h"
+#include "gltf_ext/welding.h"
 
 namespace tutte {
 namespace {
@@ -31,17 +32,27 @@ std::vector<Index> inverse(const std::vector<Index>& order) {
   return result;
 }
 
-/// Packs one mesh, section by section.
+/// Packs one mesh, section by section, over its own polygons or over welded ones.
 class Packer {
  public:
-  Packer(const PolygonMesh& mesh, const PackOptions& options) : mesh_(mesh), options_(options) {}
+  Packer(const PolygonMesh& mesh, const Polygons& polygons, const PackOptions& options)
+      : mesh_(mesh), polygons_(polygons), options_(options) {}
 
-  Outcome<Packed> run() {
-    for (const auto step : {&Packer::connectivity, &Packer::seams, &Packer::groups, &Packer::rings, &Packer::triangles,
-                            &Packer::attributes}) {
+  /// Connectivity and seams.
+  Outcome<Done> begin() {
+    if (Outcome<Done> done = connectivity(); !done) return done;
+    return seams();
+  }
+
+  uint32_t bytesSoFar() const { return packed_.connectivity_bytes + packed_.seam_bytes; }
+
+  /// Everything else, after begin().
+  Outcome<Packed> finish() {
+    for (const auto step : {&Packer::groups, &Packer::rings, &Packer::triangles, &Packer::attributes}) {
       if (Outcome<Done> done = (this->*step)(); !done) return done.error();
     }
-    parts_.counts.vertices = encoded_.connectivity.vertex_count;
+    parts_.counts.vertices = mesh_.polygons.vertex_count;
+    parts_.counts.welded = mesh_.polygons.vertex_count - polygons_.vertex_count;
     parts_.counts.wedges = static_cast<Index>(numbering_.order.size());
     parts_.counts.faces = static_cast<Index>(encoded_.connectivity.face_degrees.size());
     parts_.counts.corners = static_cast<Index>(encoded_.connectivity.umbrellas.size());
@@ -53,7 +64,7 @@ class Packer {
 
  private:
   Outcome<Done> connectivity() {
-    Result<Encoded> encoded = encode(mesh_.polygons, options_.connectivity);
+    Result<Encoded> encoded = encode(polygons_, options_.connectivity);
     if (!encoded) return failureOf(encoded.error(), "connectivity");
     encoded_ = std::move(*encoded);
     packed_.splits = encoded_.splits;
@@ -67,28 +78,41 @@ class Packer {
   }
 
   Outcome<Done> seams() {
-    std::vector<Index> wedges;
-    wedges.reserve(encoded_.corner_order.size());
-    for (const Index corner : encoded_.corner_order) wedges.push_back(mesh_.wedgeOf(corner));
-    Result<WedgeNumbering> numbering = numberWedges(encoded_.connectivity, wedges, mesh_.wedge_count);
-    if (!numbering) return failureOf(numbering.error(), "wedges");
-    numbering_ = std::move(*numbering);
-    if (!placeIsolated())
-      return Failure{FailureKind::kInvalid, "wedges", "isolated vertices and unused wedges differ in number"};
+    if (Outcome<Done> done = numberWedges(); !done) return done;
     reorderAttributes();
     if (Outcome<Done> done = checkPositions(); !done) return done;
     decoded_seams_ = withoutSeams(encoded_.connectivity, static_cast<Index>(attributes_.size()));
-    if (wedgesAreVertices(encoded_.connectivity, numbering_.wedges)) return Done{};
+    if (!welded() && numbering_.parts == decoded_seams_.wedges) return Done{};
 
     std::vector<ValueView> values;
     for (const Attribute& attribute : attributes_) values.push_back({attribute.data, attribute.stride()});
-    std::vector<uint8_t> bytes = encodeSeams(encoded_.connectivity, numbering_.wedges, values);
-    Result<Seams> seams = decodeSeams(encoded_.connectivity, bytes, static_cast<Index>(values.size()));
+    std::vector<uint8_t> bytes = encodeSeams(encoded_.connectivity, vertices_, numbering_.parts, values);
+    Result<Seams> seams = decodeSeams(encoded_.connectivity, welded(), bytes, static_cast<Index>(values.size()));
     if (!seams) return failureOf(seams.error(), "seams");
     decoded_seams_ = std::move(*seams);
     packed_.seam_bytes = static_cast<uint32_t>(bytes.size());
     parts_.set(Section::kSeams, std::move(bytes));
     return Done{};
+  }
+
+  bool welded() const { return polygons_.vertex_count < mesh_.polygons.vertex_count; }
+
+  Outcome<Done> numberWedges() {
+    std::vector<Index> vertices = verticesOf(encoded_.connectivity);
+    if (welded()) {
+      Result<PartNumbering> numbering =
+          numberParts(vertices, polygons_.vertex_count, gather(mesh_.polygons.corners, encoded_.corner_order),
+                      mesh_.polygons.vertex_count);
+      if (!numbering) return failureOf(numbering.error(), "vertices");
+      vertices = vertices_ = std::move(numbering->parts);
+    }
+    const std::vector<Index>& wedges = mesh_.wedges.empty() ? mesh_.polygons.corners : mesh_.wedges;
+    Result<PartNumbering> numbering =
+        numberParts(vertices, mesh_.polygons.vertex_count, gather(wedges, encoded_.corner_order), mesh_.wedge_count);
+    if (!numbering) return failureOf(numbering.error(), "wedges");
+    numbering_ = std::move(*numbering);
+    if (placeIsolated()) return Done{};
+    return Failure{FailureKind::kInvalid, "wedges", "isolated vertices and unused wedges differ in number"};
   }
 
   /// Gives the wedges that no corner uses, in order, to the isolated vertices, in coded order.
@@ -119,16 +143,16 @@ class Packer {
     }
   }
 
-  /// All wedges of a vertex must share slot 0: they follow each other in coded order.
+  /// All wedges of a vertex must share slot 0; those of a point do.
   Outcome<Done> checkPositions() const {
     if (attributes_.empty()) return Done{};
     const size_t stride = attributes_[0].stride();
     std::vector<Index> first(encoded_.connectivity.vertex_count, kNone);
-    for (Index corner = 0; corner < numbering_.wedges.size(); ++corner) {
+    for (Index corner = 0; corner < numbering_.parts.size(); ++corner) {
       Index& wedge = first[encoded_.connectivity.vertexOf(corner)];
-      if (wedge == kNone) wedge = numbering_.wedges[corner];
+      if (wedge == kNone) wedge = numbering_.parts[corner];
       const uint8_t* data = attributes_[0].data.data();
-      if (std::memcmp(data + wedge * stride, data + numbering_.wedges[corner] * stride, stride) != 0) {
+      if (std::memcmp(data + wedge * stride, data + numbering_.parts[corner] * stride, stride) != 0) {
         return Failure{FailureKind::kInvalid, "POSITION", "the wedges of a vertex have different positions"};
       }
     }
@@ -194,7 +218,7 @@ class Packer {
   Triangulation chosenTriangulation() const {
     PolygonMesh mesh;
     mesh.polygons = decoded_polygons_;
-    mesh.wedges = gather(numbering_.wedges, coded_of_decoded_);
+    mesh.wedges = gather(numbering_.parts, coded_of_decoded_);
     mesh.wedge_count = mesh_.wedge_count;
     mesh.ring_owners = owners_;
     if (!attributes_.empty()) mesh.attributes = {attributes_[0]};
@@ -215,17 +239,37 @@ class Packer {
   }
 
   const PolygonMesh& mesh_;
+  const Polygons& polygons_;  ///< over the mesh's vertices, or over fewer points
   const PackOptions& options_;
   Encoded encoded_;
   Polygons decoded_polygons_;            ///< the polygons as unpack() will give them
   std::vector<Index> coded_of_decoded_;  ///< their corners in coded order
-  WedgeNumbering numbering_;
+  std::vector<Index> vertices_;          ///< per coded corner, if welded
+  PartNumbering numbering_;              ///< of wedges
   Seams decoded_seams_;
   std::vector<Attribute> attributes_;  ///< in coded wedge order
   std::vector<Index> groups_, owners_;
   PayloadParts parts_;
   Packed packed_;
 };
+
+/// What a position costs at least when neighbours in other faces do not tell it, in half bytes.
+constexpr uint64_t kHalfBytesPerVertex = 3;
+
+/// Small meshes are coded both ways. In others, what positions take is guessed.
+Outcome<Packed> smallerOf(const PolygonMesh& mesh, const Polygons& welded_polygons, const PackOptions& options) {
+  Packer apart(mesh, mesh.polygons, options), welded(mesh, welded_polygons, options);
+  for (Packer* packer : {&apart, &welded}) {
+    if (Outcome<Done> done = packer->begin(); !done) return done.error();
+  }
+  if (mesh.wedge_count > 5000 && options.connectivity.effort < 2) {
+    const uint64_t saved = kHalfBytesPerVertex * (mesh.polygons.vertex_count - welded_polygons.vertex_count) / 2;
+    return welded.bytesSoFar() < apart.bytesSoFar() + saved ? welded.finish() : apart.finish();
+  }
+  Outcome<Packed> a = apart.finish(), b = welded.finish();
+  if (!a || !b) return a;
+  return a->bytes.size() <= b->bytes.size() ? std::move(a) : std::move(b);
+}
 
 }  // namespace
 
@@ -239,7 +283,11 @@ PackOptions withoutLoss(PackOptions options) {
 
 Outcome<Packed> pack(const PolygonMesh& mesh, const PackOptions& options) {
   if (Outcome<Done> valid = checkMesh(mesh); !valid) return valid.error();
-  return Packer(mesh, options).run();
+  const std::optional<Polygons> welded = options.weld != false ? weldedPolygons(mesh) : std::nullopt;
+  if (welded && !options.weld) return smallerOf(mesh, *welded, options);
+  Packer packer(mesh, welded ? *welded : mesh.polygons, options);
+  if (Outcome<Done> done = packer.begin(); !done) return done.error();
+  return packer.finish();
 }
 
 }  // namespace tutte

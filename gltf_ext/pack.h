@@ -50,6 +50,7 @@ struct PackOptions {
   std::optional<PositionGrid> grid{};  ///< of POSITION, also of morph targets, instead of position_bits
   AttributeCoder attribute_coder = AttributeCoder::kAuto;
   EncodeOptions connectivity;  ///< profile and effort, which kTutte shares
+  std::optional<bool> weld{};  ///< whether vertices in one place are coded as one; by default where it is shorter
 };
 
 /// The same options, but without any quantisation: every attribute comes back bit for bit.
@@ -71,10 +72,11 @@ struct Packed {
   uint32_t attribute_bytes = 0;  ///< seams and attribute section
 };
 
-/// Codes a mesh that obeys the rules of gltf_ext/mesh_rules.h. A mesh without triangles gets those of triangulate():
-/// fans from the first coded corner where these are right, for they cost nothing. Also refused: a wedge that belongs to
-/// two vertices, wedges of one vertex with different positions, and an unequal number of isolated vertices and unused
-/// wedges.
+/// Codes a mesh that obeys the rules of gltf_ext/mesh_rules.h. Vertices whose positions are equal to the bit are coded
+/// as one point where that takes fewer bytes; they come back as they were. A mesh without triangles gets those of
+/// triangulate(): fans from the first coded corner where these are right, for they cost nothing. Also refused: a wedge
+/// that belongs to two vertices, wedges of one vertex with different positions, and an unequal number of isolated
+/// vertices and unused wedges.
 Outcome<Packed> pack(const PolygonMesh& mesh, const PackOptions& options = {});
 
 /// The mesh that pack() stored, in coded order; its triangulation is always given. Any bytes may be passed.

@@ -8,20 +8,10 @@
 #include "gltf_ext/emit.h"
 #include "gltf_ext/pack.h"
 #include "gltf_ext/scene.h"
+#include "gltf_ext/welding.h"
 
 namespace tutte {
 namespace {
-
-/// A mesh without the attributes that nobody wants. POSITION always stays.
-PolygonMesh withAttributes(const PolygonMesh& mesh, const std::set<std::string>& kept) {
-  PolygonMesh copy = mesh;
-  if (kept.empty()) return copy;
-  std::erase_if(copy.attributes, [&](const Attribute& attribute) {
-    const std::string name = attribute.name.substr(0, attribute.name.find('@'));
-    return name != "POSITION" && !kept.count(name);
-  });
-  return copy;
-}
 
 /// Per group: whether it has a triangle. A glTF accessor cannot be empty, so that others get no primitive; their faces
 /// are in the payload all the same.
@@ -84,7 +74,8 @@ class SceneWriter {
 
   Outcome<Done> addMesh(size_t index, const std::optional<PositionGrid>& grid) {
     const SceneMesh& source = scene_.meshes[index];
-    const PolygonMesh mesh = withAttributes(source.mesh, options_.attributes);
+    PolygonMesh mesh = source.mesh;
+    keepAttributes(mesh, options_.attributes);
     if (mesh.polygons.face_degrees.empty()) {
       result_.report.warnings.push_back(unsupported(source.name, "a mesh without faces is left out"));
       return Done{};

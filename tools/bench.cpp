@@ -8,6 +8,7 @@
 #include "codec/payload.h"
 #include "gltf_ext/compress.h"
 #include "gltf_ext/triangulate.h"
+#include "gltf_ext/welding.h"
 #include "tools/cpu_clock.h"
 #include "tools/draco_baseline.h"
 #include "tools/paper_rates.h"
@@ -37,8 +38,10 @@ class OurCoder {
     Outcome<Packed> packed = timed(figures_.encode_seconds, [&] { return pack(mesh_, options_); });
     if (!packed) return packed.error();
     packed_ = *std::move(packed);
+    const bool welded = peekCounts(packed_.bytes)->welded > 0;
+    const Polygons& polygons = welded ? *welded_polygons_ : mesh_.polygons;
     const auto encoded =
-        timed(figures_.connectivity_encode_seconds, [&] { return encode(mesh_.polygons, options_.connectivity); });
+        timed(figures_.connectivity_encode_seconds, [&] { return encode(polygons, options_.connectivity); });
     if (!encoded) return failureOf(encoded.error(), "connectivity");
     const auto unpacked = timed(figures_.decode_seconds, [&] { return unpack(packed_.bytes); });
     if (!unpacked) return unpacked.error();
@@ -69,6 +72,7 @@ class OurCoder {
 
  private:
   const PolygonMesh& mesh_;
+  const std::optional<Polygons> welded_polygons_ = weldedPolygons(mesh_);
   const PackOptions& options_;
   Packed packed_;
   CoderFigures figures_;
@@ -158,11 +162,7 @@ Outcome<BenchFigures> measure(const std::string& file, Scene scene, const BenchP
   BenchFigures figures = emptySum(file);
   for (SceneMesh& mesh : scene.meshes) {
     if (mesh.mesh.polygons.face_degrees.empty()) continue;
-    if (!plan.attributes.empty()) {
-      std::erase_if(mesh.mesh.attributes, [&](const Attribute& attribute) {
-        return attribute.name != "POSITION" && !plan.attributes.count(attribute.name);
-      });
-    }
+    keepAttributes(mesh.mesh, plan.attributes);
     const Outcome<BenchFigures> one = measureMesh(mesh.mesh, plan);
     if (!one) return one.error();
     figures += *one;

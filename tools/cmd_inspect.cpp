@@ -115,6 +115,7 @@ Outcome<Json> describe(const PayloadBytes& payload) {
               {"byteOffset", payload.range.byte_offset},
               {"byteLength", payload.range.byte_length},
               {"vertices", counts.vertices},
+              {"points", counts.points()},
               {"wedges", counts.wedges},
               {"faces", counts.faces},
               {"corners", counts.corners},
@@ -171,7 +172,7 @@ std::string describeType(const Json& attribute) {
 void print(const Json& payload, size_t number) {
   std::printf("payload %zu: %s bytes at %s of buffer %s\n", number, withCommas(payload["byteLength"]).c_str(),
               withCommas(payload["byteOffset"]).c_str(), payload["buffer"].dump().c_str());
-  for (const char* count : {"vertices", "wedges", "faces", "corners", "edges", "triangles", "groups"}) {
+  for (const char* count : {"vertices", "points", "wedges", "faces", "corners", "edges", "triangles", "groups"}) {
     std::printf("  %-22s %12s\n", count, withCommas(payload[count]).c_str());
   }
   std::string choices = payload["connectivity"]["profile"];
@@ -228,7 +229,7 @@ void addInspect(CLI::App& app, Action& action) {
               "  tutte inspect model.glb\n  tutte inspect --json model.glb\n\n"
               "Connectivity by class: head, one row per kind of symbol, and what ending the streams at whole bytes\n"
               "costs or (negative) saves; in sum 8 times the section's bytes. In a dual, valences stand for degrees\n"
-              "and degrees for valences. Sections are exact bytes.");
+              "and degrees for valences. Sections are exact bytes. Vertices in one place may be coded as one point.");
   command.callback([input, as_json, &action] { action = [input, as_json] { return inspect(*input, *as_json); }; });
 }
 

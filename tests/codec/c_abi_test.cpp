@@ -36,10 +36,11 @@ std::vector<uint8_t> payloadOf(const Polygons& mesh, bool with_seams) {
   if (with_seams) {
     std::vector<Index> wedges(coded.umbrellas.size());
     for (Index c = 0; c < wedges.size(); ++c) wedges[c] = c % 2 ? c : coded.vertexOf(c) + parts.counts.corners;
-    const Result<WedgeNumbering> numbering = numberWedges(coded, wedges, parts.counts.corners + parts.counts.vertices);
+    const Result<PartNumbering> numbering =
+        numberParts(verticesOf(coded), coded.vertex_count, wedges, parts.counts.corners + parts.counts.vertices);
     EXPECT_TRUE(numbering);
     parts.counts.wedges = static_cast<Index>(numbering->order.size());
-    parts.set(Section::kSeams, encodeSeams(coded, numbering->wedges, {}));
+    parts.set(Section::kSeams, encodeSeams(coded, {}, numbering->parts, {}));
   }
   if (parts.counts.faces >= 3) {
     std::vector<Index> groups(parts.counts.faces);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "codec/bytes.h"
 #include "tests/shapes/shapes.h"
 
@@ -64,6 +66,8 @@ PayloadParts parts(unsigned mask) {
     if (mask >> s & 1) result.set(static_cast<Section>(s), someBytes(5 * static_cast<size_t>(s) + 1, mask));
   }
   if (mask >> static_cast<int>(Section::kSeams) & 1) result.counts.wedges = 300;
+  if (mask >> static_cast<int>(Section::kSeams) & mask >> static_cast<int>(Section::kRings) & 1)
+    result.counts.welded = 7;
   if (mask >> static_cast<int>(Section::kGroups) & 1) result.counts.groups = 4;
   if (mask >> static_cast<int>(Section::kAttributes) & 1) result.counts.attributes = 3;
   if (mask >> static_cast<int>(Section::kTriangulation) & 1) result.counts.triangles = 1000;
@@ -101,6 +105,16 @@ TEST(Payload, GoldenBytes) {
   expected.insert(expected.end(), {0xAB, 0xCD});
   EXPECT_EQ(writePayload(stored), expected);
   EXPECT_EQ(checksum, 0x296BEC7Au);
+}
+
+TEST(Payload, GoldenHeadOfAWeldedMesh) {
+  PayloadParts stored;
+  stored.counts = {24, 24, 6, 24, 12, 1, 0, 16};
+  stored.set(Section::kConnectivity, {0xAB});
+  stored.set(Section::kSeams, {});
+  const Bytes bytes = writePayload(stored);
+  const Bytes head = {'T', 'U', 'T', 'T', 0, 0x83, 0x01, 24, 15, 0, 6, 24};
+  EXPECT_TRUE(std::ranges::equal(std::span(bytes).first(head.size()), head));
 }
 
 TEST(Payload, NoticesEveryFlippedBit) {
@@ -148,7 +162,7 @@ TEST(Payload, NamesWhatIsWrongWithTheHeader) {
 
   ByteWriter reserved;
   for (const char c : {'T', 'U', 'T', 'T', '\0'}) reserved.byte(static_cast<uint8_t>(c));
-  reserved.varint(0x81);
+  reserved.varint(0x101);
   for (int i = 0; i < 20; ++i) reserved.byte(1);
   EXPECT_EQ(errorOf(Bytes(reserved.bytes().begin(), reserved.bytes().end())), Error::kMalformed);
 }
@@ -161,6 +175,12 @@ TEST(Payload, RefusesImpossibleCounts) {
   wedges.counts.vertices = 0xFFFFFFF0u;
   wedges.counts.wedges = 0x20u;  // the sum does not fit
   EXPECT_EQ(errorOf(writePayload(wedges)), Error::kMalformed);
+  PayloadParts points = parts(3);
+  points.counts.welded = 8;  // no point is left
+  EXPECT_EQ(errorOf(writePayload(points)), Error::kMalformed);
+  PayloadParts seamless = parts(1);
+  seamless.counts.welded = 1;
+  EXPECT_EQ(errorOf(writePayload(seamless)), Error::kMalformed);
   PayloadParts attributes = parts(33);
   attributes.counts.attributes = kMaxAttributes + 1;
   EXPECT_EQ(errorOf(writePayload(attributes)), Error::kMalformed);

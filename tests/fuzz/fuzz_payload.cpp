@@ -55,6 +55,7 @@ void forge(fuzz::Input input) {
   PayloadCounts& counts = parts.counts;
   counts.vertices = counts.wedges = mesh->vertex_count;
   if (sections & 2) counts.wedges += wedges;
+  if (sections & 2 && sections & 64 && wedges > 0) counts.vertices += counts.welded = 1 + triangles % wedges;
   counts.faces = static_cast<Index>(mesh->face_degrees.size());
   counts.corners = static_cast<Index>(mesh->umbrellas.size());
   for (const Index degree : mesh->face_degrees) counts.triangles += degree < 3 ? 0 : degree - 2;

@@ -11,6 +11,7 @@
 
 #include "codec/bytes.h"
 #include "codec/payload.h"
+#include "tests/gltf/packed_mesh.h"
 #include "tests/shapes/shapes.h"
 
 namespace tutte {
@@ -66,74 +67,6 @@ PolygonMesh decorate(const Polygons& polygons, uint64_t seed) {
   mesh.attributes.push_back(attribute("POSITION", 3, ComponentType::kUint16, positions));
   mesh.attributes.push_back(attribute("_ID", 1, ComponentType::kUint16, ids));
   return mesh;
-}
-
-std::vector<std::array<Index, 3>> trianglesOf(const Triangulation& triangulation, const std::vector<Index>& name) {
-  std::vector<std::array<Index, 3>> result;
-  for (size_t i = 0; i < triangulation.corners.size(); i += 3) {
-    const auto at = [&](size_t k) {
-      return name.empty() ? triangulation.corners[i + k] : name[triangulation.corners[i + k]];
-    };
-    result.push_back(std::min({std::array{at(0), at(1), at(2)}, {at(1), at(2), at(0)}, {at(2), at(0), at(1)}}));
-  }
-  std::ranges::sort(result);
-  return result;
-}
-
-/// The decoded mesh, read through the orders that pack() reports, is the input.
-void expectSame(const PolygonMesh& in, const Packed& packed, const PolygonMesh& out) {
-  ASSERT_EQ(out.polygons.corners.size(), in.polygons.corners.size());
-  ASSERT_EQ(out.wedge_count, in.wedge_count);
-  ASSERT_EQ(out.polygons.vertex_count, in.polygons.vertex_count);
-  ASSERT_EQ(packed.wedge_order.size(), in.wedge_count);
-  std::map<Index, Index> vertex_of;
-  for (Index corner = 0; corner < out.polygons.corners.size(); ++corner) {
-    const Index source = packed.corner_order[corner];
-    EXPECT_EQ(packed.wedge_order[out.wedgeOf(corner)], in.wedgeOf(source));
-    const auto vertex = vertex_of.try_emplace(out.polygons.corners[corner], in.polygons.corners[source]).first;
-    EXPECT_EQ(vertex->second, in.polygons.corners[source]);
-  }
-  size_t corner = 0;
-  std::vector<size_t> first(in.polygons.face_degrees.size() + 1);
-  for (size_t f = 0; f + 1 < first.size(); ++f) first[f + 1] = first[f] + in.polygons.face_degrees[f];
-  for (size_t face = 0; face < out.polygons.face_degrees.size(); ++face) {
-    const Index source = packed.face_order[face], degree = out.polygons.face_degrees[face];
-    ASSERT_EQ(degree, in.polygons.face_degrees[source]);
-    for (Index i = 0; i < degree; ++i) {
-      const Index here = packed.corner_order[corner + i], there = packed.corner_order[corner + (i + 1) % degree];
-      EXPECT_EQ(there - first[source], (here - first[source] + 1) % degree) << "a face lost its orientation";
-    }
-    if (!in.groups.empty() && in.group_count > 1) {
-      EXPECT_EQ(out.groups[face], in.groups[source]);
-    }
-    if (!in.ring_owners.empty()) {
-      const Index owner = out.ring_owners[face];
-      EXPECT_EQ(owner == kNone ? kNone : packed.face_order[owner], in.ring_owners[source]);
-    }
-    corner += degree;
-  }
-  EXPECT_EQ(trianglesOf(out.triangulation, packed.corner_order), trianglesOf(in.triangulation, {}));
-  ASSERT_EQ(out.attributes.size(), in.attributes.size());
-  for (size_t slot = 0; slot < in.attributes.size(); ++slot) {
-    const Attribute &a = in.attributes[slot], &b = out.attributes[slot];
-    EXPECT_EQ(a.name, b.name);
-    for (Index wedge = 0; wedge < in.wedge_count; ++wedge) {
-      EXPECT_EQ(0,
-                std::memcmp(&a.data[packed.wedge_order[wedge] * a.stride()], &b.data[wedge * a.stride()], a.stride()));
-    }
-  }
-}
-
-void expectRoundTrip(const PolygonMesh& mesh) {
-  const Outcome<Packed> packed = pack(mesh);
-  ASSERT_TRUE(packed.ok()) << packed.error().where << ": " << packed.error().what;
-  const Outcome<PolygonMesh> out = unpack(packed->bytes);
-  ASSERT_TRUE(out.ok()) << out.error().where << ": " << out.error().what;
-  expectSame(mesh, *packed, *out);
-  const Outcome<PolygonMesh> topology = unpackTopology(packed->bytes);
-  ASSERT_TRUE(topology.ok());
-  EXPECT_EQ(topology->wedges, out->wedges);
-  EXPECT_TRUE(topology->attributes.empty());
 }
 
 TEST(Pack, EveryShapeComesBackWithAllThatItCarries) {

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""A second decoder of the CONNECTIVITY section, written from EXTENSION_SPEC.md, Appendix B, alone and laid out like it.
+"""A second decoder, written from EXTENSION_SPEC.md alone and laid out like it; here of the CONNECTIVITY section, Appendix B.
 
 decode(section) -> Mesh. As a program: decode.py FOLDER checks every FOLDER/*.section against FOLDER/*.mesh, both made by
 the encoder's tests (tests/spec/vectors.cpp), the worked example in EXTENSION_SPEC.md against FOLDER/cube.paper.section, and
-the streams of attribute values in FOLDER/*.values (values.py).
+the streams of attribute values in FOLDER/*.values (values.py), and vertices, wedges and seams of FOLDER/*.payload (seams.py).
 """
 import re
 import sys
 from pathlib import Path
 
+import seams
 import values
 from models import Bit, Number, require
 from walk import Mesh, Walk
@@ -236,6 +237,20 @@ def check_values(path):
     return len(lines), wrong
 
 
+def described_seams(data):
+    """The text that vectors.cpp writes about a payload's seams."""
+    payload = seams.Payload(data)
+    mesh = decode(payload.sections[0])
+    require((mesh.vertex_count, len(mesh.degrees), len(mesh.umbrellas)) == (payload.points, payload.faces, payload.corners),
+            'counts')
+    vertices, wedges, attributes = seams.decode(mesh, payload.welded, payload.attributes, payload.sections[1])
+    require((vertices[1], wedges[1]) == (payload.vertices, payload.wedges), 'counts')
+    lines = [('counts', [payload.vertices, payload.points, payload.wedges]), ('vertices', vertices[0]), ('wedges', wedges[0])]
+    for parted in attributes[1:]:
+        lines.append(('seam', [c for c, twin in enumerate(mesh.twins) if twin is not None and {c, twin} & parted]))
+    return ''.join(name + ''.join(f' {number}' for number in numbers) + '\n' for name, numbers in lines)
+
+
 def main(folder):
     sections = sorted(Path(folder).glob('*.section'))
     wrong = [path.stem for path in sections
@@ -250,9 +265,13 @@ def main(folder):
         streams += count
         wrong += bad
     print(f'{streams} streams of values read')
+    payloads = sorted(Path(folder).glob('*.payload'))
+    torn = [path.stem for path in payloads if described_seams(path.read_bytes()) != path.with_suffix('.seams').read_text()]
+    print(f'{len(payloads) - len(torn)} of {len(payloads)} payloads have the same vertices, wedges and seams')
+    wrong += torn
     for name in wrong:
         print(f'WRONG: {name}', file=sys.stderr)
-    return 1 if wrong or not sections or not streams else 0
+    return 1 if wrong or not sections or not streams or not payloads else 0
 
 
 if __name__ == '__main__':

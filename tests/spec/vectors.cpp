@@ -1,16 +1,20 @@
 // Writes test vectors for decoders: per shape the encoder's connectivity section and, as text, the mesh that it means;
-// for small shapes also streams of attribute values and, as text, the numbers that they mean.
+// for small shapes also streams of attribute values and, as text, the numbers that they mean, and payloads with seams.
 //
 //   vectors FOLDER
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <utility>
 
 #include "codec/decode.h"
 #include "codec/encode.h"
+#include "codec/payload.h"
+#include "codec/seams.h"
 #include "codec/values.h"
+#include "codec/wedges.h"
 #include "tests/shapes/shapes.h"
 
 namespace tutte {
@@ -131,6 +135,90 @@ bool writeValues(const std::filesystem::path& folder, const shapes::Named& named
   return out.good();
 }
 
+/// Parts of wholes: corners of faces that happen to get the same one of `colours` colours stay together.
+PartNumbering partsOf(const Connectivity& mesh, const std::vector<Index>& wholes, Index whole_count, Index colours,
+                      uint64_t seed) {
+  shapes::Random random(seed);
+  std::map<std::pair<Index, Index>, Index> number;
+  std::vector<Index> raw;
+  for (const Index degree : mesh.face_degrees) {
+    const Index colour = random.below(colours);
+    for (Index i = 0; i < degree; ++i) {
+      const auto part = std::pair(wholes[raw.size()], colour);
+      raw.push_back(number.try_emplace(part, static_cast<Index>(number.size())).first->second);
+    }
+  }
+  return *numberParts(wholes, whole_count, raw, static_cast<Index>(number.size()));
+}
+
+void list(const char* name, std::span<const Index> values, std::ostream& out) {
+  out << name;
+  for (const Index value : values) out << ' ' << value;
+  out << '\n';
+}
+
+/// Vertices and wedges per coded corner, and per attribute but the first the corners whose edge is a seam.
+void describe(const PayloadCounts& counts, const std::vector<Index>& vertices, const Seams& seams, std::ostream& out) {
+  list("counts", std::vector<Index>{counts.vertices, counts.points(), counts.wedges}, out);
+  list("vertices", vertices, out);
+  list("wedges", seams.wedges, out);
+  for (size_t slot = 1; slot < seams.attribute_seams.size(); ++slot) {
+    std::vector<Index> corners;
+    for (Index c = 0; c < seams.attribute_seams[slot].size(); ++c) {
+      if (seams.attribute_seams[slot][c]) corners.push_back(c);
+    }
+    list("seam", corners, out);
+  }
+}
+
+/// `vertex_colours` 1: not welded; `wedge_colours` 1: wedges are vertices.
+bool writePayload(const std::filesystem::path& file, const Encoded& encoded, Index vertex_colours,
+                  Index wedge_colours) {
+  const Connectivity& mesh = encoded.connectivity;
+  const PartNumbering vertices = partsOf(mesh, verticesOf(mesh), mesh.vertex_count, vertex_colours, 1);
+  const auto vertex_count = static_cast<Index>(vertices.order.size());
+  const PartNumbering wedges = partsOf(mesh, vertices.parts, vertex_count, wedge_colours, 2);
+  if (wedges.order.size() == mesh.vertex_count) return true;  // no seams
+  PayloadParts parts;
+  parts.counts = {vertex_count,
+                  static_cast<Index>(wedges.order.size()),
+                  static_cast<Index>(mesh.face_degrees.size()),
+                  static_cast<Index>(mesh.umbrellas.size()),
+                  0,
+                  1,
+                  4,
+                  vertex_count - mesh.vertex_count};
+  const bool welded = parts.counts.welded > 0;
+  shapes::Random random(3);
+  std::vector<std::vector<uint8_t>> values(4, std::vector<uint8_t>(wedges.order.size()));
+  for (size_t w = 0; w < wedges.order.size(); ++w) {
+    values[2][w] = static_cast<uint8_t>(random.below(2));
+    values[3][w] = static_cast<uint8_t>(w);
+  }
+  std::vector<ValueView> attributes;
+  for (const auto& bytes : values) attributes.push_back({bytes, 1});
+  const std::vector<Index> coded_vertices = welded ? vertices.parts : std::vector<Index>();
+  parts.set(Section::kConnectivity, encoded.bytes);
+  parts.set(Section::kSeams, encodeSeams(mesh, coded_vertices, wedges.parts, attributes));
+  parts.set(Section::kAttributes, {});
+  const Result<Seams> seams = decodeSeams(mesh, welded, parts.sections[1], parts.counts.attributes);
+  if (!seams || seams->wedges != wedges.parts) return false;
+  std::ofstream payload(std::filesystem::path(file) += ".payload", std::ios::binary);
+  for (const uint8_t byte : writePayload(parts)) payload.put(static_cast<char>(byte));
+  std::ofstream text(std::filesystem::path(file) += ".seams");
+  describe(parts.counts, vertices.parts, *seams, text);
+  return payload.good() && text.good();
+}
+
+bool writePayloads(const std::filesystem::path& folder, const shapes::Named& named) {
+  const Result<Encoded> encoded = encode(named.shape.mesh);
+  if (!encoded) return false;
+  if (encoded->connectivity.umbrellas.size() > 500) return true;
+  return writePayload(folder / (named.name + ".wedges"), *encoded, 1, 3) &&
+         writePayload(folder / (named.name + ".welded"), *encoded, 4, 1) &&
+         writePayload(folder / (named.name + ".both"), *encoded, 2, 2);
+}
+
 /// One by the encoder's own choice, and one for each profile.
 bool writeVectors(const std::filesystem::path& folder, const shapes::Named& named) {
   const auto write = [&](const char* suffix, std::optional<Profile> profile, int effort) {
@@ -140,7 +228,8 @@ bool writeVectors(const std::filesystem::path& folder, const shapes::Named& name
     return writeVector(folder, named, suffix, options);
   };
   return write("", std::nullopt, 1) && write(".paper", Profile::kPaper, 0) && write(".fast", Profile::kFast, 1) &&
-         write(".default", Profile::kDefault, 0) && write(".small", Profile::kSmall, 2) && writeValues(folder, named);
+         write(".default", Profile::kDefault, 0) && write(".small", Profile::kSmall, 2) && writeValues(folder, named) &&
+         writePayloads(folder, named);
 }
 
 }  // namespace

@@ -1,0 +1,202 @@
+"""A payload's head (EXTENSION_SPEC.md, Appendix A) and its section SEAMS (C.1 and C.2)."""
+import zlib
+
+from models import Bit, RangeDecoder, clamp, require
+from value_models import SQUASH, Chance, Chances, varint
+
+
+# Appendix A
+
+class Payload:
+    def __init__(self, data):
+        require(data[:5] == b'TUTT\0', 'no payload of version 0')
+        flags, at = varint(data, 5)
+        require(flags < 256 and flags & 1, 'flags')
+        self.welded = flags >> 7
+        require(not self.welded or flags >> 1 & 1, 'a welded payload without SEAMS')
+
+        def count(present, otherwise):
+            nonlocal at
+            if not present:
+                return otherwise
+            value, at = varint(data, at)
+            return value
+
+        self.vertices = count(True, 0)
+        self.points = self.vertices - count(self.welded, -1) - 1
+        self.wedges = self.vertices + count(flags >> 1 & 1, 0)
+        self.faces = count(True, 0)
+        self.corners = count(True, 0)
+        usual = max(0, self.corners - 2 * self.faces)
+        self.triangles = count(flags >> 6 & 1, usual)
+        self.groups = count(flags >> 2 & 1, 0) + 1
+        self.attributes = count(flags >> 5 & 1, -1) + 1
+        require(not self.welded or 0 < self.points < self.vertices, 'counts')
+        self.sections = self.read_sections(data, at, [s for s in range(6) if flags >> s & 1])
+
+    @staticmethod
+    def read_sections(data, at, present):
+        head, lengths, sections, table = data[:at], b'', {}, []
+        for section in present:
+            size, end = varint(data, at)
+            lengths += data[at:end]
+            table.append((section, size, int.from_bytes(data[end:end + 4], 'little')))
+            at = end + 4
+        for section, size, checksum in table:
+            sections[section] = data[at:at + size]
+            require(zlib.crc32(head + lengths + sections[section]) == checksum, 'a checksum')
+            at += size
+        require(at == len(data), 'bytes behind the payload')
+        return sections
+
+
+# C.1 Mixed decisions
+
+class MixedFlag:
+    def __init__(self, inputs, weight_sets):
+        self.tables = [Chances() for _ in range(inputs)]
+        self.weights = [[65536 * 13 // (10 * inputs)] * inputs for _ in range(weight_sets)]
+
+    def read(self, stream, contexts, weight_set):
+        chances, weights = [table[x] for table, x in zip(self.tables, contexts)], self.weights[weight_set]
+        inputs = [chance.trusted() for chance in chances]
+        one = SQUASH[clamp(sum(t * w for t, w in zip(inputs, weights)) >> 16, -2047, 2047) + 2048]
+        bit = stream.bit(clamp(one, 24, 65512))
+        error = ((65535 if bit else 0) - one) >> 4
+        for i, value in enumerate(inputs):
+            weights[i] = clamp(weights[i] + (value * error + 512 >> 10), -2**20, 2**20)
+            chances[i].update(bit)
+        return bit
+
+
+# C.2 SEAMS
+
+class Ends:
+    def __init__(self, mesh):
+        self.twins, self.umbrellas = mesh.twins, mesh.umbrellas
+        self.across, self.back, self.open, corner = {}, {}, set(), 0
+        for degree in mesh.degrees:
+            for c in range(corner, corner + degree):
+                following = c + 1 if c + 1 < corner + degree else corner
+                if mesh.twins[c] is None:
+                    self.open.add(mesh.umbrellas[c])
+                else:
+                    self.across[mesh.twins[c]] = following
+                    self.back[following] = mesh.twins[c]
+            corner += degree
+        self.all = set(self.across)
+
+
+class FlagPass:
+    def __init__(self, ends, candidates, given=frozenset()):
+        self.ends, self.candidates = ends, candidates
+        self.quiet, self.mixed = [Chance(4096) for _ in range(16)], MixedFlag(4, 3)
+        self.known = {end: 2 for end in given}
+        self.left, self.parted, self.corners = {}, {}, {}
+        for c, u in enumerate(ends.umbrellas):
+            self.left[u] = self.left.get(u, 0) + (c in candidates)
+            self.corners[u] = min(self.corners.get(u, 0) + 1, 7)
+            self.parted[u] = min(self.parted.get(u, 0) + (c in given), 2)
+
+    def run(self, stream):
+        """The ends whose flag is 1."""
+        for c, t in enumerate(self.ends.twins):
+            if t is None or t < c:
+                continue
+            if c in self.candidates:
+                self.read(stream, c, t)
+            if t in self.candidates:
+                self.read(stream, t, c)
+        return {end for end, known in self.known.items() if known == 2}
+
+    def read(self, stream, e, far):
+        u, v = self.ends.umbrellas[e], self.ends.umbrellas[far]
+        if self.left[u] == 1 and u not in self.ends.open and self.parted[u] < 2:
+            flag = self.parted[u]
+        elif self.parted[u] == 0 and self.parted[v] == 0:
+            context = ((self.state(far) * 2 + (u in self.ends.open)) * 2 + (self.left[u] <= 2)) * 2 + (self.left[v] <= 2)
+            flag = self.quiet[context].read(stream)
+        else:
+            flag = self.mixed.read(stream, self.contexts(e, far, u, v), self.state(far))
+        self.parted[u] = min(2, self.parted[u] + flag)
+        self.left[u] -= 1
+        self.known[e] = 1 + flag
+
+    def state(self, end):
+        return self.known.get(end, 0)
+
+    def contexts(self, e, far, u, v):
+        across, back, known = self.ends.across.get, self.ends.back.get, self.state
+        sides = known(across(e)) * 3 + known(back(e))
+        wide = known(across(across(e))) * 3 + known(back(back(e)))
+        far_sides = known(across(far)) * 3 + known(back(far))
+        straight = self.opposite(e, u) * 3 + self.opposite(far, v)
+        seen = known(far) * 9 + self.parted[u] * 3 + self.parted[v]
+        room = (min(self.left[u], 8) - 1) * 8 + min(self.left[v], 7)
+        return [((sides * 9 + wide) * 5 + max(self.corners[u], 3) - 3) * 27 + seen, straight * 27 + seen, room * 27 + seen,
+                (far_sides * 9 + sides) * 9 + known(far) * 3 + self.parted[u]]
+
+    def opposite(self, end, umbrella):
+        if self.corners[umbrella] != 4:
+            return 0
+        forwards = self.ends.across.get(self.ends.across.get(end))
+        return self.state(forwards if forwards is not None else self.ends.back.get(self.ends.back.get(end)))
+
+
+def runs(ends, parted):
+    """Per corner the first corner of its run."""
+    first = {}
+    for corner in range(len(ends.umbrellas)):
+        c = corner
+        while c is not None and c not in first:
+            first[c] = corner
+            c = None if c in parted else ends.across.get(c)
+        c = ends.back.get(corner)
+        while c is not None and c not in parted and c not in first:
+            first[c] = corner
+            c = ends.back.get(c)
+    return first
+
+
+def part(stream, ends, wholes, count):
+    """Per corner its part, how many there are, and the parted ends."""
+    given = {c for c in ends.all if wholes[c] != wholes[ends.across[c]]}
+    parted = FlagPass(ends, ends.all - given, given).run(stream)
+    first, local, used, seen, reuse = runs(ends, parted), {}, [0] * count, set(), [Bit(), Bit()]
+    for c in sorted(set(first.values())):
+        whole, umbrella = wholes[c], ends.umbrellas[c]
+        if used[whole] and reuse[umbrella in seen].read(stream):
+            local[c] = stream.uniform(used[whole])
+        else:
+            local[c] = used[whole]
+            used[whole] += 1
+        seen.add(umbrella)
+    base, total = [], 0
+    for parts in used:
+        base.append(total)
+        total += max(parts, 1)
+    parts = [base[wholes[c]] + local[first[c]] for c in range(len(wholes))]
+    require(parted == {c for c in ends.all if parts[c] != parts[ends.across[c]]}, 'parts that contradict their ends')
+    return parts, total, parted
+
+
+def decode(mesh, welded, attributes, data):
+    """Vertices and wedges per coded corner, how many there are of each, and per attribute the ends where it differs."""
+    stream, ends = RangeDecoder(data), Ends(mesh)
+    vertices, vertex_count = [mesh.vertices[u] for u in mesh.umbrellas], mesh.vertex_count
+    parted = set()
+    if welded:
+        vertices, vertex_count, parted = part(stream, ends, vertices, vertex_count)
+    wedges, wedge_count = vertices, vertex_count
+    if not welded or stream.bit(32768):
+        wedges, wedge_count, parted = part(stream, ends, vertices, vertex_count)
+    seams = [set()]
+    for _ in range(1, attributes):
+        if not stream.bit(32768):
+            seams.append(set())
+        elif not stream.bit(32768):
+            seams.append(parted)
+        else:
+            seams.append(FlagPass(ends, parted).run(stream))
+    stream.finish()
+    return (vertices, vertex_count), (wedges, wedge_count), seams
