@@ -28,46 +28,53 @@ class Boundary {
   // the inner loop has its fields in registers.
   struct Face {
     FaceAnswer answer;
-    Index start = kNone, second = kNone;  // where it is attached
-    Index head = kNone, tail = kNone;     // where its part on the boundary ends
-    Index edges = 0;                      // known ones
-    bool closed = false;                  // they are all
-    Index missing = 0;                    // vertices
-    Index found = 0;                      // missing vertices that were told
-    Index current = kNone;                // the vertex before the next missing one
-    Index before_tail = kNone;
-    Index stretch = kNone;        // where the face's stretch of the boundary begins, a split's rest if there was one
-    uint16_t before_current = 0;  // valence, up to 14, of the vertex before the current one in the face
-    bool is_new = false;          // the current vertex's leaving edge belongs to the face
+    Gap *start, *second;  // where it is attached
+    Gap *head, *tail;     // where its part on the boundary ends
+    Index edges = 0;      // known ones
+    bool closed = false;  // they are all
+    Index missing = 0;    // vertices
+    Index found = 0;      // missing vertices that were told
+    Gap* current;         // the vertex before the next missing one
+    Gap* before_tail;
+    Gap* stretch;                // where the face's stretch of the boundary begins, a split's rest if there was one
+    uint8_t before_current = 0;  // valence, up to 14, of the vertex before the current one in the face
+    bool is_new = false;         // the current vertex's leaving edge belongs to the face
     uint64_t valence_sum = 0;
     int64_t angle = 0;
-    Index first_corner = 0, corner = 0;  // of the face, and the next one
+    Index first_corner, corner;  // of the face, and the next one
     Error error = Error::kNone;
+
+    // Gaps that a seed does not have are null; other faces tell them as they go.
+    Face() {}
+    static Face seed() {
+      Face face;
+      face.start = face.second = face.head = face.tail = face.current = face.before_tail = face.stretch = nullptr;
+      return face;
+    }
 
     VertexQuestion question() const {
       return {answer.degree, answer.dummy, head, current, before_tail, found, missing, valence_sum, angle};
     }
   };
 
-  // No boundary is left.
-  bool finished() { return last_.head == kNone && gaps_.lowestList() == Gaps::kLists; }
-
   // Where the face is attached: mostly where the last one ended, and then two of its gaps need not be queued at all.
+  // False: no boundary is left, or it is damaged.
   [[gnu::always_inline]] bool choose(Face& face) {
     const Left left = last_;
-    last_.head = kNone;
-    const Index list = gaps_.lowestList();
-    const bool go_on = left.head != kNone && gaps_.comesFirst(left.list, list);
-    if (go_on) {
+    last_.head = nullptr;
+    Index list = gaps_.lowestList();
+    if (left.head != nullptr && gaps_.comesFirst(left.list, list)) {
       face.start = left.head;
-      face.second = gaps_[left.head].next;
-      for (Index gap = left.tail; gap != face.second; gap = gaps_[gap].prev) gaps_.enqueue(gap);
+      face.second = left.head->next;
+      for (Gap* gap = left.tail; gap != face.second; gap = gap->prev) gaps_.enqueue(*gap);
     } else {
-      if (left.head != kNone) requeue(left.tail, left.head);
-      face.start = gaps_.pop(gaps_.lowestList());
-      face.second = gaps_[face.start].next;
-      if (!gaps_[face.second].queued) return false;
-      gaps_.dequeue(face.second);
+      if (left.head != nullptr) requeue(left.tail, left.head), list = gaps_.lowestList();
+      if (list == Gaps::kLists) return false;
+      face.start = &gaps_.pop(list);
+      face.second = face.start->next;
+      face.error = Error::kMalformed;
+      if (!face.second->queued) return false;
+      gaps_.dequeue(*face.second);
     }
     face.head = face.start;
     face.tail = face.second;
@@ -76,61 +83,59 @@ class Boundary {
 
   // Follows the boundary both ways while the face uses up gaps.
   [[gnu::always_inline]] bool reachOut(Face& face) {
-    while (gaps_[face.tail].free_slots == 0) {
+    while (face.tail->free_slots == 0) {
       ++face.edges;
-      const Index next = gaps_[face.tail].next;
+      Gap* const next = face.tail->next;
       if (next == face.start) {
         face.closed = true;
-        return gaps_[next].free_slots == 0;
+        return next->free_slots == 0;
       }
-      if (!take(next, face)) return false;
+      if (!take(*next, face)) return false;
       face.tail = next;
       script_.step();
     }
-    while (gaps_[face.head].free_slots == 0) {
+    while (face.head->free_slots == 0) {
       ++face.edges;
-      face.head = gaps_[face.head].prev;
-      if (!take(face.head, face)) return false;
+      face.head = face.head->prev;
+      if (!take(*face.head, face)) return false;
     }
     return true;
   }
 
   // The gaps that the face used up. `stop`: where those after the start end.
-  [[gnu::always_inline]] void release(const Face& face, Index stop) {
-    if (face.start != face.head || face.closed) gaps_.release(face.start);
-    for (Index gap = face.second; gap != stop;) {
-      const Index next = gaps_[gap].next;
-      gaps_.release(gap);
+  [[gnu::always_inline]] void release(const Face& face, const Gap* stop) {
+    if (face.start != face.head || face.closed) gaps_.release(*face.start);
+    for (Gap* gap = face.second; gap != stop;) {
+      Gap* const next = gap->next;
+      gaps_.release(*gap);
       gap = next;
     }
     if (face.start == face.head) return;
-    for (Index gap = gaps_[face.start].prev; gap != face.head; gap = gaps_[gap].prev) gaps_.release(gap);
+    for (Gap* gap = face.start->prev; gap != face.head; gap = gap->prev) gaps_.release(*gap);
   }
 
-  [[gnu::always_inline]] void become(Index gap, Face& face, bool is_new) {
+  [[gnu::always_inline]] void become(Gap& gap, Face& face, bool is_new) {
     script_.step();
-    const Gap& record = gaps_[gap];
-    if (Script::kGathers && face.current != kNone) {
-      Gap& before = gaps_[face.current];
-      if (face.is_new) before.opposite_own = record.capped;
-      face.before_current = before.capped;
+    if (Script::kGathers && face.current != nullptr) {
+      if (face.is_new) face.current->opposite_own = gap.capped;
+      face.before_current = face.current->capped;
     }
     face.is_new = is_new;
-    face.current = gap;
-    corners_.makeRoom(face.corner + face.edges + 2);
-    emit(record, face);
+    face.current = &gap;
+    if (face.answer.degree > kRoom) corners_.makeRoom(face.corner + face.edges + 2);
+    emit(gap, face);
   }
 
   [[gnu::always_inline]] static void know(const Gap& gap, Face& face) {
-    face.valence_sum += gap.valence;
+    if (Script::kSums) face.valence_sum += gap.valence;
     face.angle += gap.flat;
   }
 
   // Uses a slot of a gap for the current face.
-  [[gnu::always_inline]] bool take(Index gap, Face& face) {
-    if (!gaps_[gap].queued) return false;
+  [[gnu::always_inline]] bool take(Gap& gap, Face& face) {
+    if (!gap.queued) return false;
     gaps_.dequeue(gap);
-    use(gaps_[gap], face);
+    use(gap, face);
     return true;
   }
 
@@ -140,17 +145,17 @@ class Boundary {
   }
 
   // The boundary now runs from `gap` to `next`; the face lies behind, in which next has the corner `next_corner`.
-  [[gnu::always_inline]] void closeBoundary(Index gap, Index next, Index next_corner, const Face& face) {
-    Gap& record = gaps_[gap];
-    Gap& other = gaps_[next];
-    record.next = next;
-    other.prev = gap;
-    record.behind = face.answer.dummy ? kNone : next_corner;
-    record.degree_behind = face.answer.dummy ? 0 : face.answer.degree;
+  // `kFresh`: nothing has met the gap yet.
+  template <bool kFresh = false>
+  [[gnu::always_inline]] void closeBoundary(Gap& gap, Gap& next, Index next_corner, const Face& face) {
+    gap.next = &next;
+    next.prev = &gap;
+    gap.behind = face.answer.dummy ? kNone : next_corner;
+    gap.degree_behind = face.answer.dummy ? 0 : face.answer.degree;
     if (Script::kGathers) {
-      record.opposite_next = face.before_current;
-      record.met += (uint64_t{1} << 32) + other.valence;
-      other.met += (uint64_t{1} << 32) + record.valence;
+      gap.opposite_next = face.before_current;
+      gap.met = (kFresh ? 0 : gap.met) + (uint64_t{1} << 32) + next.valence;
+      next.met += (uint64_t{1} << 32) + gap.valence;
     }
     script_.cross(gap);
   }
@@ -181,40 +186,42 @@ class Boundary {
     corners_.twins()[corner] = face.corner - 1;
   }
 
-  // Ends a face that leaves the boundary from `tail` back to `head`.
-  [[gnu::always_inline]] void leave(Index tail, Index head, const FaceAnswer& face) {
-    const Index others = gather(tail, head, face), list = Gaps::listOf(gaps_[head].free_slots);
+  // After a face that leaves the boundary from `tail` back to `head`.
+  [[gnu::always_inline]] void leave(Gap* tail, Gap* head, const FaceAnswer& face) {
+    const Index others = gather(tail, head, face), list = Gaps::listOf(head->free_slots);
     last_ = {tail, head, list};
     if (gaps_.comesFirst(list, others)) return;
     requeue(tail, head);
-    last_.head = kNone;
+    last_.head = nullptr;
   }
 
   // Notes the face in the gaps from `tail` back to `head`. Returns the lowest list of all but head.
-  [[gnu::always_inline]] Index gather(Index tail, Index head, const FaceAnswer& face) {
+  [[gnu::always_inline]] Index gather(Gap* tail, const Gap* head, const FaceAnswer& face) {
     const uint32_t angle = face.dummy ? 0 : static_cast<uint32_t>(flatAngle(face.degree));
-    Index least = Gaps::kLists;
-    for (Index gap = tail;; gap = gaps_[gap].prev) {
-      Gap& record = gaps_[gap];
-      if (Script::kGathers) record.angle += angle;
-      if (face.dummy) record.dummy = true;
-      if (gap == head) return least;
-      least = std::min(least, Gaps::listOf(record.free_slots));
+    Index least = Gaps::kLists - 1;
+    for (Gap* gap = tail;; gap = gap->prev) {
+      if (Script::kGathers) gap->angle += angle;
+      if (face.dummy) gap->dummy = true;
+      if (gap == head) return tail == head ? Gaps::kLists : least;
+      least = std::min(least, gap->free_slots);
     }
   }
 
-  [[gnu::always_inline]] void requeue(Index tail, Index head) {
-    for (Index gap = tail;; gap = gaps_[gap].prev) {
-      gaps_.enqueue(gap);
+  [[gnu::always_inline]] void requeue(Gap* tail, const Gap* head) {
+    for (Gap* gap = tail;; gap = gap->prev) {
+      gaps_.enqueue(*gap);
       if (gap == head) return;
     }
   }
 
   // What the last face left of the boundary, when that is not queued yet.
   struct Left {
-    Index tail = kNone, head = kNone;
+    Gap *tail = nullptr, *head = nullptr;
     Index list = 0;  // which the head would join, and come before all others
   };
+
+  // Faces of at most this degree have room for all their corners from the beginning.
+  static constexpr Index kRoom = 64;
 
   Script& script_;
   Gaps gaps_;

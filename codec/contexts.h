@@ -39,7 +39,7 @@ inline constexpr std::array<uint64_t, 64> kInverse = [] {
 
 /// Sides of the regular polygon whose angle is the `parts`-th part of what `angle`, at most 131072, lacks to a whole
 /// turn (1 - 2 / sides, in 1/65536), in half steps, at most 30.
-inline uint32_t sidesOf(int64_t angle, uint64_t parts) {
+[[gnu::always_inline]] inline uint32_t sidesOf(int64_t angle, uint64_t parts) {
   const uint64_t rest = static_cast<uint64_t>(std::max(131072 - angle, int64_t{0}));
   const uint64_t part = parts < kInverse.size() ? rest * kInverse[parts] >> 32 : rest / parts;
   return kSides[std::min(part >> 6, uint64_t{1023})];
@@ -62,9 +62,12 @@ class Pack {
 
 inline constexpr Gap kNoGap{};
 
+/// A gap that may not exist.
+inline const Gap& orNone(const Gap* gap) { return gap == nullptr ? kNoGap : *gap; }
+
 /// Around a missing vertex. "Head" and "current" are the vertices of the face between which it lies.
 struct VertexFeatures {
-  uint32_t face, missing, mode;           // the face's degree (dummy: 1), vertices missing, usual valence
+  uint32_t missing;                       // vertices
   uint32_t head, current, before, after;  // valences: at head, at current, and beyond them on the boundary
   uint32_t head_slots, current_slots, before_slots, after_slots;
   uint32_t head_sum, current_sum;    // excess of the neighbours' valences, around 8
@@ -75,10 +78,9 @@ struct VertexFeatures {
 
   // Inlined, so that what no context of a profile reads is not gathered. In a seed face some of the gaps do not exist.
   template <bool kSeed>
-  [[gnu::always_inline]] VertexFeatures(std::bool_constant<kSeed>, const VertexQuestion& q, const Gaps& gaps,
-                                        uint32_t face_class, uint32_t usual_valence, const History& recent)
-      : face(face_class), missing(std::min(q.missing, Index{7})), mode(usual_valence), history(recent) {
-    const auto at = [&](Index gap) -> const Gap& { return kSeed && gap == kNone ? kNoGap : gaps[gap]; };
+  [[gnu::always_inline]] VertexFeatures(std::bool_constant<kSeed>, const VertexQuestion& q, const History& recent)
+      : missing(std::min(q.missing, Index{7})), history(recent) {
+    const auto at = [](const Gap* gap) -> const Gap& { return kSeed ? orNone(gap) : *gap; };
     const Gap &a = at(q.head), &b = at(q.current), &edge = at(q.before_tail), &next = at(b.next), &prev = at(a.prev);
     head = a.capped, current = b.capped, before = prev.capped, after = next.capped;
     head_slots = slots(a), current_slots = slots(b), before_slots = slots(prev), after_slots = slots(next);
@@ -156,7 +158,7 @@ template <VertexContext context>
     p.add(f.head_slots, 3).add(f.current_slots, 3);
   }
   if constexpr (context == kPredictedSlots) p.add(f.predicted, 5).add(f.head_slots, 3).add(f.current_slots, 3);
-  return p | uint64_t{f.face | f.missing << 4 | f.mode << 7} << 44;
+  return p;
 }
 
 /// Around a face. It is attached from "near" to "far"; its part on the boundary runs from "head" to "tail".
@@ -170,10 +172,9 @@ struct FaceFeatures {
   uint32_t mean_sum;                          // excess of the neighbours' valences at both ends
   History history;
 
-  [[gnu::always_inline]] FaceFeatures(const FaceQuestion& q, const Gaps& gaps, const History& recent)
-      : history(recent) {
-    const auto at = [&](Index gap) -> const Gap& { return gap == kNone ? kNoGap : gaps[gap]; };
-    const Gap &g0 = at(q.gap), &g1 = at(q.far_gap), &a = at(q.head), &b = at(q.tail), &prev = at(a.prev);
+  [[gnu::always_inline]] FaceFeatures(const FaceQuestion& q, const History& recent) : history(recent) {
+    const Gap &g0 = orNone(q.gap), &g1 = orNone(q.far_gap), &a = orNone(q.head), &b = orNone(q.tail);
+    const Gap& prev = orNone(a.prev);
     known = std::min(q.known_edges, Index{15});
     least = std::min(std::max(Index{3}, q.known_edges + 1), Index{9});
     near = g0.capped, far = g1.capped;
@@ -241,12 +242,6 @@ template <FaceContext context>
   }
   if constexpr (context == kDummies) p.add(f.dummies, 4).add(f.behind, 4).add(f.behind_head, 4).add(f.behind_tail, 4);
   return p;
-}
-
-/// Keys for a list of contexts.
-template <auto... contexts, class Features>
-[[gnu::always_inline]] inline std::array<uint64_t, sizeof...(contexts)> keysOf(const Features& features) {
-  return {keyOf<contexts>(features)...};
 }
 
 }  // namespace tutte

@@ -49,6 +49,11 @@ class Lanes {
     return Lanes(_mm_srli_epi16(lanes_, kShift));
   }
   Lanes atLeast(int16_t least) const { return Lanes(_mm_max_epi16(lanes_, _mm_set1_epi16(least))); }
+  /// One lane, without sign.
+  template <int kLane>
+  uint32_t lane() const {
+    return static_cast<uint32_t>(_mm_extract_epi16(lanes_, kLane));
+  }
   static Lanes all(int16_t value) { return Lanes(_mm_set1_epi16(value)); }
 
   /// The high or the low halves of eight words.
@@ -126,6 +131,10 @@ class Lanes {
     return Lanes(wasm_u16x8_shr(lanes_, kShift));
   }
   Lanes atLeast(int16_t least) const { return Lanes(wasm_i16x8_max(lanes_, wasm_i16x8_splat(least))); }
+  template <int kLane>
+  uint32_t lane() const {
+    return wasm_u16x8_extract_lane(lanes_, kLane);
+  }
   static Lanes all(int16_t value) { return Lanes(wasm_i16x8_splat(value)); }
 
   struct Halves;
@@ -205,6 +214,10 @@ class Lanes {
     Lanes result = *this;
     for (int16_t& lane : result.lanes_) lane = std::max(lane, least);
     return result;
+  }
+  template <int kLane>
+  uint32_t lane() const {
+    return static_cast<uint16_t>(lanes_[kLane]);
   }
   static Lanes all(int16_t value) {
     std::array<int16_t, 8> lanes;

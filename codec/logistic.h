@@ -64,6 +64,6 @@ inline constexpr std::array<int16_t, kDomain> kStretch4 = [] {
 inline int16_t stretch4(uint32_t probability) { return logistic::kStretch4[probability >> 4]; }
 
 /// The probability of 1, 1 to 65535, for a stretched value in [-2047, 2047].
-inline uint32_t squash(int32_t stretched) { return logistic::kSquash[stretched + logistic::kDomain / 2]; }
+constexpr uint32_t squash(int32_t stretched) { return logistic::kSquash[stretched + logistic::kDomain / 2]; }
 
 }  // namespace tutte

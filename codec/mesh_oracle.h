@@ -39,15 +39,15 @@ class MeshOracle {
     enter(plans_[next_component_++].seed);
     corner_ = corner_ == first_ ? end_ - 1 : corner_ - 1;  // the first step() leads to the first corner
   }
-  void start(Index gap) {
-    enter(outside_[gap]);
+  void start(const Gap& gap) {
+    enter(outside_[gap.number]);
     step();
   }
   void step() { corner_ = following(); }
-  void cross(Index gap) {
-    if (gap >= outside_.size()) outside_.resize(2 * gap + 64);
-    outside_[gap] = topology_.twin[corner_];
-    gap_at_[outside_[gap]] = gap;
+  void cross(const Gap& gap) {
+    if (gap.number >= outside_.size()) outside_.resize(2 * gap.number + 64);
+    const Index corner = outside_[gap.number] = topology_.twin[corner_];
+    gap_at_[corner] = gap.number;
   }
 
   FaceAnswer face() const { return {end_ - first_, topology_.isDummy(face_)}; }
@@ -68,8 +68,8 @@ class MeshOracle {
     for (Index steps = 0;; ++steps) {
       if (done(topology_.twin[after])) return {gap_at_[after], steps};
       if (done(topology_.twin[before])) {
-        const Index gap = gaps[gap_at_[before]].next;
-        return {gap, gaps[gap].free_slots - 1 - steps};
+        const Gap& gap = *gaps[gap_at_[before]].next;
+        return {gap.number, gap.free_slots - 1 - steps};
       }
       after = faces.next(topology_.twin[after]);
       before = faces.prev(topology_.twin[before]);

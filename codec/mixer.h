@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "codec/lanes.h"
 #include "codec/logistic.h"
@@ -20,11 +19,10 @@ class Slot {
  public:
   static constexpr int kLeastRate = 257;
 
-  int16_t stretched() const { return stretchedOf(word_); }
   uint32_t probability() const { return word_ >> 16; }
-  uint32_t* word() { return &word_; }
-
-  static int16_t stretchedOf(uint32_t word) { return logistic::kStretch4[word >> 20]; }
+  int16_t stretched() const { return stretch4(probability()); }
+  uint32_t word() const { return word_; }
+  void setWord(uint32_t word) { word_ = word; }
 
   void update(bool bit) {
     const uint32_t flip = bit ? 0xFFFF : 0, rate = word_ & 0xFFFF;
@@ -37,32 +35,14 @@ class Slot {
   uint32_t word_ = 0x80007FFFu;
 };
 
-/// Eight slots in different places.
-class SlotGroup {
- public:
-  explicit SlotGroup(const std::array<uint32_t*, 8>& at) : at_(at) {
-    for (int i = 0; i < 8; ++i) words_[i] = *at[i];
-  }
-
-  Lanes stretched() const {
-    return Lanes({Slot::stretchedOf(words_[0]), Slot::stretchedOf(words_[1]), Slot::stretchedOf(words_[2]),
-                  Slot::stretchedOf(words_[3]), Slot::stretchedOf(words_[4]), Slot::stretchedOf(words_[5]),
-                  Slot::stretchedOf(words_[6]), Slot::stretchedOf(words_[7])});
-  }
-
-  void update(bool bit) {
-    const Lanes::Halves halves = Lanes::split(words_);
-    const Lanes flip = Lanes::all(static_cast<int16_t>(bit ? -1 : 0)), rate = halves.low;
-    const Lanes other = halves.high ^ flip;
-    const Lanes slower = (rate - rate.highProduct(rate).shifted<1>()).atLeast(Slot::kLeastRate);
-    const auto words = Lanes::join({(other - other.highProduct(rate)) ^ flip, slower});
-    for (int i = 0; i < 8; ++i) *at_[i] = words[i];
-  }
-
- private:
-  std::array<uint32_t*, 8> at_;
-  std::array<uint32_t, 8> words_;
-};
+/// Eight slots' words after a decision.
+[[gnu::always_inline]] inline std::array<uint32_t, 8> updatedSlots(const std::array<uint32_t, 8>& words, bool bit) {
+  const Lanes::Halves halves = Lanes::split(words);
+  const Lanes flip = Lanes::all(static_cast<int16_t>(bit ? -1 : 0)), rate = halves.low;
+  const Lanes other = halves.high ^ flip;
+  const Lanes slower = (rate - rate.highProduct(rate).shifted<1>()).atLeast(Slot::kLeastRate);
+  return Lanes::join({(other - other.highProduct(rate)) ^ flip, slower});
+}
 
 /// `kInputs` (a multiple of 8) stretched probabilities, each times 4.
 template <int kInputs>
@@ -104,13 +84,10 @@ class LearningRate {
 };
 
 /// A final correction: maps (decision, mixed probability) to what was seen there, between 33 points per decision.
+template <int kDecisions>
 class FinalMap {
  public:
-  explicit FinalMap(int decisions) : points_(static_cast<size_t>(decisions)) {
-    for (auto& point : points_) {
-      for (int i = 0; i < 33; ++i) point[i] = static_cast<uint16_t>(squash(std::clamp(i * 128 - 2048, -2047, 2047)));
-    }
-  }
+  FinalMap() { points_.fill(kInitial); }
 
   uint32_t refine(int decision, int32_t stretched) {
     const int32_t position = stretched + 2048;
@@ -126,7 +103,13 @@ class FinalMap {
   }
 
  private:
-  std::vector<std::array<uint16_t, 33>> points_;
+  static constexpr std::array<uint16_t, 33> kInitial = [] {
+    std::array<uint16_t, 33> points{};
+    for (int i = 0; i < 33; ++i) points[i] = static_cast<uint16_t>(squash(std::clamp(i * 128 - 2048, -2047, 2047)));
+    return points;
+  }();
+
+  std::array<std::array<uint16_t, 33>, kDecisions> points_;
   uint16_t* at_ = nullptr;
   int32_t part_ = 0;
 };

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -41,13 +42,10 @@ class Predictor {
   /// Tables of 2^table_bits lines.
   explicit Predictor(int table_bits)
       : shift_(64 - table_bits), table_lines_(size_t{1} << table_bits), lines_(table_lines_ * kContexts) {
-    if constexpr (!kMixes) return;
-    Weights<kInputs> initial;
-    initial.weight.fill(static_cast<int16_t>(std::min(27 * 16384 / 100, 189 * 16384 / (100 * (kContexts + 1)))));
-    by_node_.assign(kNodes, initial);
+    weights_.by_node.fill(kInitial);
     if constexpr (kRich) {
-      by_situation_.assign(kSituations, initial);
-      by_match_.assign(kMatchLengths, initial);
+      weights_.by_situation.fill(kInitial);
+      weights_.by_match.fill(kInitial);
     }
   }
 
@@ -59,83 +57,119 @@ class Predictor {
     }
   }
 
-  /// Codes one decision. `match`: a slot that has its own opinion, or null; `match_length` 0 to 7.
+  /// Codes one decision.
   template <class Port>
-  bool code(Port& port, const Selectors& selectors, Slot* match, int match_length, bool value) {
-    return codeOver(port, selectors, match, match_length, value, std::make_index_sequence<kContexts>());
-  }
-
- private:
-  template <class Port, size_t... i>
-  [[gnu::always_inline]] bool codeOver(Port& port, const Selectors& selectors, Slot* match, int match_length,
-                                       bool value, std::index_sequence<i...>) {
-    if constexpr (!kMixes) {
+  bool code(Port& port, Selectors selectors, bool value) {
+    if constexpr (kMixes) {
+      return mixed<false>(port, selectors, nullptr, 0, value);
+    } else {
       Slot& slot = line_[0]->slot[selectors.node];
       const bool bit = port.code(std::clamp(slot.probability(), 16u, 65520u), value);
       slot.update(bit);
       return bit;
+    }
+  }
+
+  /// Likewise, with a slot that has its own opinion. `match_length` 0 to 7.
+  template <class Port>
+  bool code(Port& port, Selectors selectors, Slot& match, int match_length, bool value) {
+    return mixed<true>(port, selectors, &match, match_length, value);
+  }
+
+ private:
+  template <bool kMatched, class Port>
+  [[gnu::always_inline]] bool mixed(Port& port, Selectors selectors, Slot* match, int match_length, bool value) {
+    constexpr int kUsed = kContexts + kMatched;
+    const auto inputs = inputsOf<kUsed>(selectors.node, match, std::make_index_sequence<kInputs / 8>());
+    const bool bit = decide(port, selectors, inputs, match_length, value);
+    update<0, kUsed>(selectors.node, match, bit, std::make_index_sequence<8>());
+    if constexpr (kUsed > 8) update<8, kUsed>(selectors.node, match, bit, std::make_index_sequence<8>());
+    return bit;
+  }
+
+  // The slot of an input; what has none is `match`.
+  template <int kInput>
+  [[gnu::always_inline]] Slot& slotOf(int node, Slot* match) const {
+    if constexpr (kInput < kContexts) return line_[kInput]->slot[node];
+    return *match;
+  }
+
+  template <int kUsed, size_t... group>
+  [[gnu::always_inline]] Inputs<kInputs> inputsOf(int node, Slot* match, std::index_sequence<group...>) const {
+    return {opinionsOf<8 * group, kUsed>(node, match, std::make_index_sequence<8>())...};
+  }
+
+  // Inputs that are not used have no opinion.
+  template <int kFirst, int kUsed, size_t... i>
+  [[gnu::always_inline]] Lanes opinionsOf(int node, Slot* match, std::index_sequence<i...>) const {
+    return Lanes({(kFirst + i < kUsed ? slotOf<kFirst + i>(node, match).stretched() : int16_t{0})...});
+  }
+
+  template <int kFirst, int kUsed, size_t... i>
+  [[gnu::always_inline]] void update(int node, Slot* match, bool bit, std::index_sequence<i...>) {
+    const auto words = updatedSlots({(kFirst + i < kUsed ? slotOf<kFirst + i>(node, match).word() : 0)...}, bit);
+    ((kFirst + i < kUsed ? slotOf<kFirst + i>(node, match).setWord(words[i]) : void()), ...);
+  }
+
+  template <class Port>
+  [[gnu::always_inline]] bool decide(Port& port, Selectors selectors, const Inputs<kInputs>& inputs, int match_length,
+                                     bool value) {
+    if constexpr (kRich) {
+      return decideRich(port, selectors, inputs, match_length, value);
     } else {
-      Slot nobody;
-      std::array<uint32_t*, kInputs> slots{line_[i]->slot[selectors.node].word()..., (match ? match : &nobody)->word()};
-      for (int unused = kContexts + 1; unused < kInputs; ++unused) slots[unused] = nobody.word();
-      SlotGroups groups = groupsOf(slots, std::make_index_sequence<kInputs / 8>());
-      const Inputs<kInputs> inputs = inputsOf(groups, std::make_index_sequence<kInputs / 8>());
-      const bool bit = kRich ? codeRich(port, selectors, inputs, match_length, value)
-                             : codePlain(port, by_node_[selectors.node], inputs, value);
-      for (SlotGroup& group : groups) group.update(bit);
+      Weights<kInputs>& weights = weights_.by_node[selectors.node];
+      const uint32_t mixed = squash(weights.mix(inputs));
+      const bool bit = port.code(mixed, value);
+      rate_.advance();
+      weights.learn(inputs, rate_.step((bit << 16) - static_cast<int32_t>(mixed)));
       return bit;
     }
   }
 
-  using SlotGroups = std::array<SlotGroup, kInputs / 8>;
-
-  template <size_t... g>
-  [[gnu::always_inline]] static SlotGroups groupsOf(const std::array<uint32_t*, kInputs>& at,
-                                                    std::index_sequence<g...>) {
-    return {SlotGroup({at[8 * g], at[8 * g + 1], at[8 * g + 2], at[8 * g + 3], at[8 * g + 4], at[8 * g + 5],
-                       at[8 * g + 6], at[8 * g + 7]})...};
-  }
-
-  template <size_t... g>
-  [[gnu::always_inline]] static Inputs<kInputs> inputsOf(const SlotGroups& groups, std::index_sequence<g...>) {
-    return {groups[g].stretched()...};
-  }
-
   template <class Port>
-  [[gnu::always_inline]] bool codePlain(Port& port, Weights<kInputs>& weights, const Inputs<kInputs>& inputs,
-                                        bool value) {
-    const uint32_t mixed = squash(weights.mix(inputs));
-    const bool bit = port.code(mixed, value);
-    rate_.advance();
-    weights.learn(inputs, rate_.step((bit << 16) - static_cast<int32_t>(mixed)));
-    return bit;
-  }
-
-  template <class Port>
-  [[gnu::always_inline]] bool codeRich(Port& port, const Selectors& selectors, const Inputs<kInputs>& inputs,
-                                       int match_length, bool value) {
-    Weights<kInputs>* const sets[3] = {&by_node_[selectors.node], &by_situation_[selectors.situation],
-                                       &by_match_[match_length]};
-    const int32_t opinions[3] = {sets[0]->mix(inputs), sets[1]->mix(inputs), sets[2]->mix(inputs)};
-    const int32_t average = (opinions[0] + opinions[1] + opinions[2]) * 21845 >> 16;
+  [[gnu::always_inline]] bool decideRich(Port& port, Selectors selectors, const Inputs<kInputs>& inputs,
+                                         int match_length, bool value) {
+    Weights<kInputs>& by_node = weights_.by_node[selectors.node];
+    Weights<kInputs>& by_situation = weights_.by_situation[selectors.situation];
+    Weights<kInputs>& by_match = weights_.by_match[match_length];
+    const int32_t first = by_node.mix(inputs), second = by_situation.mix(inputs), third = by_match.mix(inputs);
+    const int32_t average = (first + second + third) * 21845 >> 16;
     const uint32_t refined = final_.refine(selectors.node, average);
     const uint32_t mixed = std::clamp((squash(average) + refined + 1) >> 1, 2u, 65534u);
     const bool bit = port.code(mixed, value);
     rate_.advance();
-    for (int i = 0; i < 3; ++i) {
-      sets[i]->learn(inputs, rate_.step((bit << 16) - static_cast<int32_t>(squash(opinions[i]))));
-    }
+    const auto learn = [&](Weights<kInputs>& set, int32_t opinion) {
+      set.learn(inputs, rate_.step((bit << 16) - static_cast<int32_t>(squash(opinion))));
+    };
+    learn(by_node, first);
+    learn(by_situation, second);
+    learn(by_match, third);
     final_.update(bit);
     return bit;
   }
+
+  struct PlainWeights {
+    std::array<Weights<kInputs>, kNodes> by_node;
+  };
+  struct RichWeights : PlainWeights {
+    std::array<Weights<kInputs>, kSituations> by_situation;
+    std::array<Weights<kInputs>, kMatchLengths> by_match;
+  };
+  struct NoMap {};
+
+  static constexpr Weights<kInputs> kInitial = [] {
+    Weights<kInputs> weights;
+    weights.weight.fill(static_cast<int16_t>(std::min(27 * 16384 / 100, 189 * 16384 / (100 * (kContexts + 1)))));
+    return weights;
+  }();
 
   int shift_;
   size_t table_lines_;
   std::vector<Line> lines_;
   std::array<Line*, kContexts> line_{};
-  std::vector<Weights<kInputs>> by_node_, by_situation_, by_match_;
+  std::conditional_t<kRich, RichWeights, PlainWeights> weights_;
   LearningRate rate_;
-  FinalMap final_{kRich ? kNodes : 0};
+  [[no_unique_address]] std::conditional_t<kRich, FinalMap<kNodes>, NoMap> final_;
 };
 
 }  // namespace tutte

@@ -4,18 +4,19 @@
 #include <array>
 #include <cstdint>
 
+#include "codec/gaps.h"
 #include "codec/mesh.h"
 
 namespace tutte {
 
 /// What is known of a face before its degree is.
 struct FaceQuestion {
-  Index gap = kNone;      ///< where it is attached; kNone for the first face of a component
-  Index far_gap = kNone;  ///< the gap at the far end of that edge
-  Index head = kNone;     ///< the first vertex of the face on the boundary
-  Index tail = kNone;     ///< the last one
-  Index known_edges = 0;  ///< edges that it shares with the region
-  bool closed = false;    ///< all its edges are known: its degree is known_edges
+  const Gap* gap = nullptr;      ///< where it is attached; null for the first face of a component
+  const Gap* far_gap = nullptr;  ///< the gap at the far end of that edge
+  const Gap* head = nullptr;     ///< the first vertex of the face on the boundary
+  const Gap* tail = nullptr;     ///< the last one
+  Index known_edges = 0;         ///< edges that it shares with the region
+  bool closed = false;           ///< all its edges are known: its degree is known_edges
 };
 
 /// A face's degree. A dummy face closes a hole and is not part of the mesh.
@@ -26,15 +27,15 @@ struct FaceAnswer {
 
 /// What is known of a missing vertex of the current face.
 struct VertexQuestion {
-  Index degree = 0;           ///< of the face
-  bool dummy = false;         ///< it is a dummy
-  Index head = kNone;         ///< where the face's missing vertices end; kNone in the first face of a component
-  Index current = kNone;      ///< the vertex before this one; kNone for the first vertex of a component
-  Index before_tail = kNone;  ///< the vertex before the first missing one's predecessor; kNone likewise
-  Index index = 0;            ///< missing vertices of the face that were coded before
-  Index missing = 0;          ///< vertices of the face that are still missing, this one included
-  uint64_t valence_sum = 0;   ///< sum of the valences of those that are known
-  int64_t angle = 0;          ///< sum over them of 1 - 2 / valence, in 1/65536
+  Index degree = 0;                  ///< of the face
+  bool dummy = false;                ///< it is a dummy
+  const Gap* head = nullptr;         ///< where the face's missing vertices end; null in the first face of a component
+  const Gap* current = nullptr;      ///< the vertex before this one; null for the first vertex of a component
+  const Gap* before_tail = nullptr;  ///< the vertex before the first missing one's predecessor; null likewise
+  Index index = 0;                   ///< missing vertices of the face that were coded before
+  Index missing = 0;                 ///< vertices of the face that are still missing, this one included
+  uint64_t valence_sum = 0;          ///< sum of the valences of those that are known, if the statistics ask for it
+  int64_t angle = 0;                 ///< sum over them of 1 - 2 / valence, in 1/65536
 
   Index knownVertices() const { return degree - missing; }
 };

@@ -23,9 +23,9 @@ struct Blind {
   static bool component() { return false; }
   static Index original() { return kNone; }
   static void seed() {}
-  static void start(Index) {}
+  static void start(const Gap&) {}
   static void step() {}
-  static void cross(Index) {}
+  static void cross(const Gap&) {}
   static FaceAnswer face() { return {}; }
   static VertexAnswer vertex() { return {}; }
   static SplitAnswer split(const Gaps&) { return {}; }
@@ -35,10 +35,12 @@ struct Blind {
 template <class Statistics, class Port, class Oracle>
 class Script {
  public:
-  static constexpr bool kGathers = Statistics::kGathers;
+  static constexpr bool kGathers = Statistics::kGathers, kSums = Statistics::kSums;
 
   Script(const SectionHeader& header, Port& valences, Port& degrees, Oracle& oracle)
       : header_(header),
+        degrees_known_(header.degreesKnown()),
+        dummy_umbrellas_(header.hasDummyUmbrellas()),
         statistics_(header),
         log_(header.copies),
         valences_(valences),
@@ -53,32 +55,25 @@ class Script {
     return true;
   }
 
-  FaceAnswer face(const FaceQuestion& question, const Gaps& gaps) {
+  [[gnu::always_inline]] FaceAnswer face(const FaceQuestion& question) {
     const FaceAnswer truth = oracle_.face();
-    degrees_.about(Topic::kDegrees);
-    if (log_.replaying()) {
-      const Index symbol = log_.next();
-      return {symbol >> 1, (symbol & 1) != 0};
-    }
-    const FaceAnswer answer = statistics_.face(degrees_, question, gaps, truth);
-    log_.add(answer.degree << 1 | static_cast<Index>(answer.dummy));
-    return answer;
+    if (degrees_known_) return {question.closed ? question.known_edges : header_.uniform_degree, false};
+    return coded(question, truth);
   }
 
-  VertexAnswer vertex(const VertexQuestion& question, const Gaps& gaps) {
+  [[gnu::always_inline]] VertexAnswer vertex(const VertexQuestion& question) {
     const VertexAnswer truth = oracle_.vertex();
+    if (log_.replaying()) return replayedVertex();
     valences_.about(Topic::kValences);
-    if (log_.replaying()) {
-      const Index symbol = log_.next();
-      return {symbol >> 1, (symbol & 1) != 0};
-    }
-    VertexAnswer answer{statistics_.vertex(valences_, question, gaps, truth.valence), false};
-    if (header_.hasDummyUmbrellas() && answer.valence != 0) {
-      valences_.about(Topic::kHoles);
-      answer.dummy = dummy_[std::min(answer.valence, Index{15})].code(valences_, truth.dummy);
-    }
-    log_.add(answer.valence << 1 | static_cast<Index>(answer.dummy));
-    return answer;
+    return noted(statistics_.vertex(valences_, question, truth.valence), truth);
+  }
+
+  /// Of the first face of a component.
+  VertexAnswer seedVertex(const VertexQuestion& question) {
+    const VertexAnswer truth = oracle_.vertex();
+    if (log_.replaying()) return replayedVertex();
+    valences_.about(Topic::kValences);
+    return noted(statistics_.seedVertex(valences_, question, truth.valence), truth);
   }
 
   SplitAnswer split(const VertexQuestion& question, const Gaps& gaps) {
@@ -94,19 +89,55 @@ class Script {
     return answer;
   }
 
-  /// Why the walk must stop: the streams ended before the mesh did, or named what does not exist.
+  /// Must the walk stop? The streams ended before the mesh did, or named what does not exist.
+  bool faulty() const { return damaged_ || valences_.overrun(); }
   Error fault() const {
-    if (damaged_) return Error::kMalformed;
-    return valences_.overrun() || degrees_.overrun() ? Error::kTruncated : Error::kNone;
+    if (valences_.overrun() || degrees_.overrun()) return Error::kTruncated;
+    return damaged_ ? Error::kMalformed : Error::kNone;
   }
 
   void seed() { oracle_.seed(); }
-  void start(Index gap) { oracle_.start(gap); }
+  void start(const Gap& gap) { oracle_.start(gap); }
   void step() { oracle_.step(); }
-  void cross(Index gap) { oracle_.cross(gap); }
+  void cross(const Gap& gap) { oracle_.cross(gap); }
 
  private:
+  [[gnu::noinline]] FaceAnswer coded(const FaceQuestion& question, const FaceAnswer& truth) {
+    if (log_.replaying()) {
+      const Index symbol = replayed();
+      return {symbol >> 1, (symbol & 1) != 0};
+    }
+    degrees_.about(Topic::kDegrees);
+    const FaceAnswer answer = statistics_.face(degrees_, question, truth);
+    log_.add(answer.degree << 1 | static_cast<Index>(answer.dummy));
+    damaged_ |= degrees_.overrun();
+    return answer;
+  }
+
+  [[gnu::noinline]] VertexAnswer replayedVertex() {
+    const Index symbol = replayed();
+    return {symbol >> 1, (symbol & 1) != 0};
+  }
+
+  Index replayed() {
+    const Index symbol = log_.next();
+    damaged_ |= symbol == kNone;
+    return symbol;
+  }
+
+  // A valence that was coded, with what else there is to say.
+  [[gnu::always_inline]] VertexAnswer noted(Index valence, const VertexAnswer& truth) {
+    VertexAnswer answer{valence, false};
+    if (dummy_umbrellas_ && valence != 0) {
+      valences_.about(Topic::kHoles);
+      answer.dummy = dummy_[std::min(valence, Index{15})].code(valences_, truth.dummy);
+    }
+    log_.add(valence << 1 | static_cast<Index>(answer.dummy));
+    return answer;
+  }
+
   const SectionHeader& header_;
+  bool degrees_known_, dummy_umbrellas_;
   Statistics statistics_;
   ComponentLog log_;
   Port& valences_;

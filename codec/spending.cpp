@@ -72,7 +72,7 @@ class Accountant : public Unwatched {
     degrees.reportTo(spending_);
   }
 
-  void face(const FaceQuestion&, const FaceAnswer& answer, const Gaps&) {
+  void face(const FaceQuestion&, const FaceAnswer& answer) {
     if (answer.dummy) degrees_->move(Topic::kHoles);
   }
 

@@ -18,12 +18,12 @@ class SplitCoder {
     const bool last = question.missing == 1;
     const Index least_slots = last ? 3 : 2;
     Place place;
-    if constexpr (Port::kWriting) place = find(question, gaps, least_slots, truth.gap);
+    if constexpr (Port::kWriting) place = find(question, least_slots, truth.gap);
     SplitAnswer answer;
     if (near_[last].code(port, place.near)) {
       place.backward = backward_[last].code(port, place.backward);
       place.distance = distance_[last].code(port, place.distance);
-      answer.gap = gapAt(question, gaps, least_slots, place);
+      answer.gap = gapAt(question, least_slots, place);
     } else {
       answer.gap = port.uniform(gaps.highWater(), truth.gap);
     }
@@ -48,23 +48,22 @@ class SplitCoder {
   // Visits the gaps of the current loop that a split can go to, from the current vertex on or from head back, until
   // visit(gap, number of such gaps before it) returns true or the reach ends.
   template <class Visit>
-  static void alongBoundary(const VertexQuestion& question, const Gaps& gaps, Index least_slots, bool backward,
-                            Visit&& visit) {
-    Index gap = backward ? question.head : question.current;
+  static void alongBoundary(const VertexQuestion& question, Index least_slots, bool backward, Visit&& visit) {
+    const Gap* gap = backward ? question.head : question.current;
     Index passed = 0;
     for (Index step = 0; step < kReach; ++step) {
-      gap = backward ? gaps[gap].prev : gaps[gap].next;
-      if (!gaps[gap].queued) return;  // round to the current face
-      if (gaps[gap].free_slots < least_slots) continue;
-      if (visit(gap, passed)) return;
+      gap = backward ? gap->prev : gap->next;
+      if (!gap->queued) return;  // round to the current face
+      if (gap->free_slots < least_slots) continue;
+      if (visit(gap->number, passed)) return;
       ++passed;
     }
   }
 
-  static Place find(const VertexQuestion& question, const Gaps& gaps, Index least_slots, Index target) {
+  static Place find(const VertexQuestion& question, Index least_slots, Index target) {
     Place best;
     for (const bool backward : {false, true}) {
-      alongBoundary(question, gaps, least_slots, backward, [&](Index gap, Index passed) {
+      alongBoundary(question, least_slots, backward, [&](Index gap, Index passed) {
         if (best.near && passed >= best.distance) return true;
         if (gap != target) return false;
         best = {true, backward, passed};
@@ -74,9 +73,9 @@ class SplitCoder {
     return best;
   }
 
-  static Index gapAt(const VertexQuestion& question, const Gaps& gaps, Index least_slots, const Place& place) {
+  static Index gapAt(const VertexQuestion& question, Index least_slots, const Place& place) {
     Index found = kNone;
-    alongBoundary(question, gaps, least_slots, place.backward, [&](Index gap, Index passed) {
+    alongBoundary(question, least_slots, place.backward, [&](Index gap, Index passed) {
       if (passed == place.distance) found = gap;
       return found != kNone;
     });

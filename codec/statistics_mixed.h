@@ -16,25 +16,30 @@ namespace tutte {
 template <auto... contexts>
 struct ContextList {
   static constexpr int kCount = sizeof...(contexts);
+  /// `shared`: what all keys hold, above bit 43.
   template <class Features>
-  [[gnu::always_inline]] static std::array<uint64_t, kCount> keys(const Features& features) {
-    return keysOf<contexts...>(features);
+  [[gnu::always_inline]] static std::array<uint64_t, kCount> keys(const Features& features, uint64_t shared) {
+    return {(keyOf<contexts>(features) | shared << 44)...};
   }
 };
+
+/// A profile has lists of contexts, and says whether it is rich (see Predictor), and whether the most frequent degree
+/// is asked for first: that takes fewer decisions, and a few bytes more.
 
 /// One context each, nothing to mix.
 struct FastProfile {
   using Vertex = ContextList<VertexContext::kPredicted>;
   using Face = ContextList<FaceContext::kEnds>;
-  static constexpr bool kRich = false;
+  static constexpr bool kRich = false, kUsualDegree = true;
 };
 
 struct DefaultProfile {
   using Vertex =
       ContextList<VertexContext::kPredicted, VertexContext::kHeadRing, VertexContext::kNothing, VertexContext::kEnds,
                   VertexContext::kSlots, VertexContext::kHistory, VertexContext::kSums>;
-  using Face = ContextList<FaceContext::kEnds, FaceContext::kNearAngle, FaceContext::kHistory, FaceContext::kAround>;
-  static constexpr bool kRich = false;
+  using Face = ContextList<FaceContext::kEnds, FaceContext::kNearAngle, FaceContext::kHistory, FaceContext::kAround,
+                           FaceContext::kNothing>;
+  static constexpr bool kRich = false, kUsualDegree = true;
 };
 
 struct SmallProfile {
@@ -47,22 +52,22 @@ struct SmallProfile {
                            FaceContext::kEdge, FaceContext::kLeast, FaceContext::kAngles, FaceContext::kDegrees,
                            FaceContext::kBehind, FaceContext::kSums, FaceContext::kSlots, FaceContext::kBoth,
                            FaceContext::kEdgeAndDegrees, FaceContext::kDummies, FaceContext::kNothing>;
-  static constexpr bool kRich = true;
+  static constexpr bool kRich = true, kUsualDegree = false;
 };
 
-/// The usual valence of a face degree's vertices: the most frequent so far, at least 3.
-class UsualValence {
+/// The usual valence of a face degree's vertices, or the usual degree: the most frequent so far, at least 3.
+class UsualSymbol {
  public:
-  UsualValence() {
+  UsualSymbol() {
     for (Index i = 0; i < 16; ++i) usual_[i] = i == 3 ? 6 : 4;
   }
 
-  Index of(Index degree_class) const { return usual_[degree_class]; }
+  Index of(Index symbol_class) const { return usual_[symbol_class]; }
 
-  void add(Index degree_class, Index valence) {
-    if (valence < 3 || valence > 15) return;
-    auto& counts = counts_[degree_class];
-    if (++counts[valence] > counts[usual_[degree_class]]) usual_[degree_class] = valence;
+  void add(Index symbol_class, Index symbol) {
+    if (symbol < 3 || symbol > 15) return;
+    auto& counts = counts_[symbol_class];
+    if (++counts[symbol] > counts[usual_[symbol_class]]) usual_[symbol_class] = symbol;
   }
 
  private:
@@ -73,7 +78,7 @@ class UsualValence {
 template <class Profile>
 class MixedStatistics {
  public:
-  static constexpr bool kGathers = Profile::Vertex::kCount > 1;
+  static constexpr bool kGathers = Profile::Vertex::kCount > 1, kSums = false;
 
   explicit MixedStatistics(const SectionHeader& header)
       : header_(header),
@@ -82,27 +87,32 @@ class MixedStatistics {
         match_(header.match) {}
 
   template <class Port>
-  FaceAnswer face(Port& port, const FaceQuestion& question, const Gaps& gaps, const FaceAnswer& truth) {
-    const FaceAnswer answer = codeFace(port, question, gaps, truth);
+  FaceAnswer face(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {
+    const FaceAnswer answer = codeFace(port, question, truth);
     history_.addDegree(answer.dummy ? 1 : answer.degree);
-    if (!header_.degreesKnown()) match_.add(128 + (answer.dummy ? 1 : std::min(answer.degree, Index{100})));
+    match_.add(128 + (answer.dummy ? 1 : std::min(answer.degree, Index{100})));
     return answer;
   }
 
   template <class Port>
-  [[gnu::always_inline]] Index vertex(Port& port, const VertexQuestion& question, const Gaps& gaps, Index truth) {
-    return question.head == kNone ? codeVertex(std::true_type(), port, question, gaps, truth)
-                                  : codeVertex(std::false_type(), port, question, gaps, truth);
+  [[gnu::always_inline]] Index vertex(Port& port, const VertexQuestion& question, Index truth) {
+    return codeVertex(std::false_type(), port, question, truth);
+  }
+
+  template <class Port>
+  Index seedVertex(Port& port, const VertexQuestion& question, Index truth) {
+    return codeVertex(std::true_type(), port, question, truth);
   }
 
  private:
   static constexpr Index kLongest = 24;
 
   template <class Seed, class Port>
-  Index codeVertex(Seed seed, Port& port, const VertexQuestion& question, const Gaps& gaps, Index truth) {
+  [[gnu::always_inline]] Index codeVertex(Seed seed, Port& port, const VertexQuestion& question, Index truth) {
     const Index face = question.dummy ? 1 : std::min(question.degree, Index{15});
     const Index usual = usual_.of(face);
-    vertices_.enter(Profile::Vertex::keys(VertexFeatures(seed, question, gaps, face, usual, history_)));
+    const VertexFeatures features(seed, question, history_);
+    vertices_.enter(Profile::Vertex::keys(features, face | features.missing << 4 | usual << 7));
     const Index expected = match_.expected();
     expected_ = expected < 128 ? expected : MatchModel::kNoSymbol;
     const int situation = static_cast<int>(face * 4 + (question.missing > 1) * 2 + (question.index > 0));
@@ -119,38 +129,60 @@ class MixedStatistics {
   }
 
   template <class Port>
-  FaceAnswer codeFace(Port& port, const FaceQuestion& question, const Gaps& gaps, const FaceAnswer& truth) {
+  FaceAnswer codeFace(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {
     const Index known = question.closed ? question.known_edges : header_.uniform_degree;
-    const bool may_be_dummy = header_.hasDummyFaces() && question.gap != kNone && !touchesDummy(question, gaps);
+    const bool may_be_dummy = header_.hasDummyFaces() && question.gap != nullptr && !touchesDummy(question);
     if (known != 0 && !may_be_dummy) return {known, false};
-    return codeUnknownFace(port, question, gaps, truth, known, may_be_dummy);
+    return codeUnknownFace(port, question, truth, known, may_be_dummy);
   }
 
-  // `known`: its degree, or 0.
+  // `known`: its degree, or 0. The most frequent degree, if it is possible, is asked for first.
   template <class Port>
-  FaceAnswer codeUnknownFace(Port& port, const FaceQuestion& question, const Gaps& gaps, const FaceAnswer& truth,
-                             Index known, bool may_be_dummy) {
-    const FaceFeatures features(question, gaps, history_);
-    faces_.enter(Profile::Face::keys(features));
+  FaceAnswer codeUnknownFace(Port& port, const FaceQuestion& question, const FaceAnswer& truth, Index known,
+                             bool may_be_dummy) {
+    const FaceFeatures features(question, history_);
+    const Index least = std::max(header_.leastDegree(), question.known_edges + 1);
+    const Index usual = Profile::kUsualDegree ? usual_degree_.of(0) : 0;
+    faces_.enter(Profile::Face::keys(features, std::min(usual, Index{15})));
     const Index symbol = match_.expected(), expected = symbol - 128;
     expected_ = symbol >= 128 ? symbol : MatchModel::kNoSymbol;
     const int situation = static_cast<int>(features.behind * 3 + std::min(features.known, 3u) - (features.known > 0));
+    const auto decide = [&](int node, int step, bool matched, bool value) {
+      return this->decide(port, faces_, {node, situation + 64 * step}, matched, value);
+    };
+    port.about(Topic::kDegrees);
+    if (known == 0 && usual >= least && decide(0, 0, expected == usual, !truth.dummy && truth.degree == usual)) {
+      usual_degree_.add(0, usual);
+      return {usual, false};
+    }
     port.about(Topic::kHoles);
-    if (may_be_dummy && decide(port, faces_, {0, situation}, expected == 1, truth.dummy)) {
+    if (may_be_dummy && decide(1, 1, expected == 1, truth.dummy)) {
       return {question.closed ? known : 3 + dummy_degree_.code(port, truth.degree - 3), true};
     }
     if (known != 0) return {known, false};
     port.about(Topic::kDegrees);
-    const Index least = std::max(header_.leastDegree(), question.known_edges + 1);
-    Index degree = least;
-    for (; degree < least + kLongest - 4; ++degree) {
-      const int node = static_cast<int>(std::min(degree - 2, Index{kNodes - 1}));
-      const int step = static_cast<int>(1 + std::min(degree - least, Index{2}));
-      if (decide(port, faces_, {node, situation + 64 * step}, expected == degree, truth.degree == degree)) {
-        return {degree, false};
+    const Index degree = codeUnusualDegree(port, usual, least, truth.degree, expected, decide);
+    usual_degree_.add(0, degree);
+    return {degree, false};
+  }
+
+  template <class Port, class Decide>
+  Index codeUnusualDegree(Port& port, Index usual, Index least, Index truth, Index expected, Decide&& decide) {
+    if (usual > least && decide(2, 2, expected < usual, truth < usual)) {
+      for (Index degree = usual - 1; degree > least; --degree) {
+        if (decide(static_cast<int>(std::min(2 + usual - degree, Index{6})), 3, expected == degree, truth == degree)) {
+          return degree;
+        }
       }
+      return least;
     }
-    return {degree + large_degree_.code(port, truth.degree - degree), false};
+    Index degree = std::max(usual + 1, least);
+    const Index most = degree + kLongest - 5;
+    for (; degree <= most; ++degree) {
+      const int node = static_cast<int>(std::min(6 + degree - usual, Index{kNodes - 1}));
+      if (decide(node, 4, expected == degree, truth == degree)) return degree;
+    }
+    return degree + large_degree_.code(port, truth - degree);
   }
 
   template <class Port, class Decide>
@@ -172,21 +204,21 @@ class MixedStatistics {
 
   // `matched`: what the expected symbol, if there is one, says to the decision.
   template <class Port, class Stream>
-  [[gnu::always_inline]] bool decide(Port& port, Stream& stream, const Selectors& selectors, bool matched, bool value) {
-    if (!Stream::kMixes || expected_ == MatchModel::kNoSymbol) return stream.code(port, selectors, nullptr, 0, value);
+  [[gnu::always_inline]] bool decide(Port& port, Stream& stream, Selectors selectors, bool matched, bool value) {
+    if constexpr (!Stream::kMixes) return stream.code(port, selectors, value);
+    if (expected_ == MatchModel::kNoSymbol) return stream.code(port, selectors, value);
     return decideMatched(port, stream, selectors, matched, value);
   }
 
   template <class Port, class Stream>
-  bool decideMatched(Port& port, Stream& stream, const Selectors& selectors, bool matched, bool value) {
-    const bool bit = stream.code(port, selectors, &match_.opinion(matched), match_.lengthClass(), value);
+  bool decideMatched(Port& port, Stream& stream, Selectors selectors, bool matched, bool value) {
+    const bool bit = stream.code(port, selectors, match_.opinion(matched), match_.lengthClass(), value);
     if (bit != matched) expected_ = MatchModel::kNoSymbol;
     return bit;
   }
 
-  static bool touchesDummy(const FaceQuestion& question, const Gaps& gaps) {
-    return gaps[question.gap].dummy || gaps[question.far_gap].dummy || gaps[question.head].dummy ||
-           gaps[question.tail].dummy;
+  static bool touchesDummy(const FaceQuestion& question) {
+    return question.gap->dummy || question.far_gap->dummy || question.head->dummy || question.tail->dummy;
   }
 
   const SectionHeader& header_;
@@ -194,7 +226,8 @@ class MixedStatistics {
   Predictor<Profile::Face::kCount, Profile::kRich> faces_;
   MatchModel match_;
   History history_;
-  UsualValence usual_;
+  UsualSymbol usual_;         // valences, by the face's degree
+  UsualSymbol usual_degree_;  // all degrees in one class
   NumberModel large_valence_, large_degree_, dummy_degree_;
   Index expected_ =
       MatchModel::kNoSymbol;  // what the match expects of the current symbol, until a decision contradicts it

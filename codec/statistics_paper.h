@@ -13,12 +13,12 @@ namespace tutte {
 
 /// The context of a face's degree: the degree of the face behind its first edge, and whether the valences at the ends
 /// of that edge are together below, at, or above what is regular there. 0 to 6.
-inline Index paperFaceContext(const FaceQuestion& question, const Gaps& gaps) {
-  if (question.gap == kNone) return 0;
-  const Index behind = gaps[question.gap].degree_behind;
+inline Index paperFaceContext(const FaceQuestion& question) {
+  if (question.gap == nullptr) return 0;
+  const Index behind = question.gap->degree_behind;
   if (behind != 3 && behind != 4) return 0;
   const Index regular = behind == 3 ? 12 : 8;
-  const Index sum = gaps[question.gap].valence + gaps[question.far_gap].valence;
+  const Index sum = question.gap->valence + question.far_gap->valence;
   return (behind == 3 ? 2 : 5) + (sum > regular) - (sum < regular);
 }
 
@@ -34,20 +34,21 @@ inline Index paperVertexContext(const VertexQuestion& question) {
 }
 
 /// What a Statistics class offers: coding of one symbol, given the truth (in the encoder) and a port. Degrees that
-/// are known (header) are not coded. kGathers: it reads what gaps gather of their surroundings.
+/// are known (header) are not asked for. kGathers: it reads what gaps gather of their surroundings; kSums: sums of
+/// valences.
 class PaperStatistics {
  public:
-  static constexpr bool kGathers = false;
+  static constexpr bool kGathers = false, kSums = true;
 
   explicit PaperStatistics(const SectionHeader& header) : header_(header) {}
 
   template <class Port>
-  FaceAnswer face(Port& port, const FaceQuestion& question, const Gaps& gaps, const FaceAnswer& truth) {
-    const Index context = paperFaceContext(question, gaps);
+  FaceAnswer face(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {
+    const Index context = paperFaceContext(question);
     FaceAnswer answer{question.closed ? question.known_edges : header_.uniform_degree, false};
     if (answer.degree != 0) {
       port.about(Topic::kHoles);
-      answer.dummy = header_.hasDummyFaces() && question.gap != kNone && dummy_[context].code(port, truth.dummy);
+      answer.dummy = header_.hasDummyFaces() && question.gap != nullptr && dummy_[context].code(port, truth.dummy);
       if (answer.dummy && !question.closed) answer.degree = 3 + dummy_degree_.code(port, truth.degree - 3);
       return answer;
     }
@@ -59,7 +60,12 @@ class PaperStatistics {
   }
 
   template <class Port>
-  Index vertex(Port& port, const VertexQuestion& question, const Gaps&, Index truth) {
+  Index seedVertex(Port& port, const VertexQuestion& question, Index truth) {
+    return vertex(port, question, truth);
+  }
+
+  template <class Port>
+  Index vertex(Port& port, const VertexQuestion& question, Index truth) {
     const Index context = paperVertexContext(question);
     const Index symbol = valence_[context].code(port, truth >= kSymbols ? kEscape : truth);
     return symbol == kEscape ? kSymbols + large_valence_.code(port, truth - kSymbols) : symbol;

@@ -8,6 +8,8 @@ namespace {
 // Turns the walk's questions and answers into events.
 class Tracer : public Unwatched {
  public:
+  static constexpr bool kSums = true;
+
   explicit Tracer(const TraceSink& sink) : sink_(sink) {}
 
   void component(bool another) {
@@ -17,17 +19,17 @@ class Tracer : public Unwatched {
     components_ += another;
   }
 
-  void face(const FaceQuestion& question, const FaceAnswer& answer, const Gaps& gaps) {
+  void face(const FaceQuestion& question, const FaceAnswer& answer) {
     current_face_ = faces_;
     TraceEvent event = start(TraceEvent::Kind::kFace);
     event.degree = answer.degree;
     event.dummy = answer.dummy;
     event.closed = question.closed;
-    event.seed = question.gap == kNone;
+    event.seed = question.gap == nullptr;
     event.known_edges = question.known_edges;
     if (!event.seed) {
-      event.gap = question.gap;
-      event.degree_behind = gaps[question.gap].degree_behind;
+      event.gap = question.gap->number;
+      event.degree_behind = question.gap->degree_behind;
     }
     sink_(event);
     faces_ += !answer.dummy;

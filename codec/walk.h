@@ -25,17 +25,19 @@
 namespace tutte {
 
 /// Runs a script to a mesh. A Script offers
-///   bool component()                                is there another component?
-///   FaceAnswer face(const FaceQuestion&, const Gaps&)
-///   VertexAnswer vertex(const VertexQuestion&, const Gaps&)
+///   bool component()                       is there another component?
+///   FaceAnswer face(const FaceQuestion&)
+///   VertexAnswer vertex(const VertexQuestion&)
 ///   SplitAnswer split(const VertexQuestion&, const Gaps&)
-///   static constexpr bool kGathers                  do its answers depend on what Gap gathers of the surroundings?
-///   Error fault()                                   why the input cannot go on; kNone while it can
+///   static constexpr bool kGathers         do its answers depend on what Gap gathers of the surroundings?
+///   static constexpr bool kSums            ... on sums of valences?
+///   bool faulty()                          must the walk stop? To be asked after each answer
+///   Error fault()                          why
 /// and follows, where it stands on an input mesh, the position of the walk:
-///   void seed()            before the first face of a component
-///   void start(Index gap)  at the far end of the edge that leaves the gap, in the face outside
-///   void step()            on to the next corner of the face
-///   void cross(Index gap)  the gap's leaving edge becomes the edge from the next corner back to this one
+///   void seed()                  before the first face of a component
+///   void start(const Gap& gap)   at the far end of the edge that leaves the gap, in the face outside
+///   void step()                  on to the next corner of the face
+///   void cross(const Gap& gap)   the gap's leaving edge becomes the edge from the next corner back to this one
 template <class Script>
 class Walk : public Boundary<Script> {
  public:
@@ -54,7 +56,7 @@ class Walk : public Boundary<Script> {
     Error error = Error::kNone;
     while (error == Error::kNone && script_.component()) {
       error = seed();
-      while (error == Error::kNone && !Base::finished()) error = attach();
+      for (bool more = true; more && error == Error::kNone;) more = attach(error);
     }
     degrees_.finish();
     corners_.finish();
@@ -80,65 +82,70 @@ class Walk : public Boundary<Script> {
   Error seed() {
     gaps_.clear();
     script_.seed();
-    Face face;
-    face.answer = script_.face({}, gaps_);
+    Face face = Face::seed();
+    face.answer = script_.face({});
     if (face.answer.dummy) return Error::kMalformed;
     if (!open(face)) return face.error;
     face.missing = face.answer.degree;
     while (face.missing > 0) {
-      const VertexAnswer vertex = script_.vertex(face.question(), gaps_);
+      const VertexAnswer vertex = script_.seedVertex(face.question());
       if (vertex.valence == 0) return Error::kMalformed;
       if (!addVertex(vertex, face)) return face.error;
-      if (face.stretch == kNone) face.stretch = face.current;
+      if (face.stretch == nullptr) face.stretch = face.current;
     }
-    closeBoundary(face.stretch, face.current, face.corner - 1, face);
+    closeBoundary(*face.stretch, *face.current, face.corner - 1, face);
     leave(face.stretch, face.current, face.answer);
     corners_.setSize(face.corner);
     return Error::kNone;
   }
 
-  // One more face.
-  Error attach() {
+  // One more face. False: there is none, or an error.
+  [[gnu::always_inline]] bool attach(Error& error) {
     Face face;
-    if (!Base::choose(face)) return Error::kMalformed;
-    const Index start = face.start;
-    script_.start(start);
+    const bool attached = Base::choose(face) && grow(face);
+    error = attached ? Error::kNone : face.error;
+    return attached;
+  }
+
+  [[gnu::always_inline]] bool grow(Face& face) {
+    script_.start(*face.start);
+    face.error = Error::kMalformed;
     face.edges = 1;
-    use(gaps_[start], face);
-    use(gaps_[face.second], face);
-    if (!Base::reachOut(face)) return Error::kMalformed;
-    face.answer = script_.face({start, face.second, face.head, face.tail, face.edges, face.closed}, gaps_);
-    if (!open(face)) return face.error;
-    const Index stop = face.closed ? start : face.tail;
-    emitKnown(gaps_[start], face);
-    for (Index gap = face.second; gap != stop; gap = gaps_[gap].next) emitKnown(gaps_[gap], face);
-    if (!face.closed && !fill(face)) return face.error;
+    use(*face.start, face);
+    use(*face.second, face);
+    if (!Base::reachOut(face)) return false;
+    face.answer = script_.face({face.start, face.second, face.head, face.tail, face.edges, face.closed});
+    if (!open(face)) return false;
+    const Gap* const stop = face.closed ? face.start : face.tail;
+    emitKnown(*face.start, face);
+    for (const Gap* gap = face.second; gap != stop; gap = gap->next) emitKnown(*gap, face);
+    if (!face.closed && !fill(face)) return false;
     Base::release(face, stop);
     corners_.setSize(face.corner);
-    return Error::kNone;
+    return true;
   }
 
   // The rest of a face that is not closed: the missing vertices from its tail round to its head.
   [[gnu::always_inline]] bool fill(Face& face) {
     face.current = face.stretch = face.tail;
-    face.before_tail = gaps_[face.tail].prev;
+    face.before_tail = face.tail->prev;
     face.missing = face.answer.degree - face.edges - 1;
     const Index splits = splits_;
-    const uint16_t after_head = Script::kGathers ? gaps_[gaps_[face.head].next].capped : uint16_t{0};
-    if (Script::kGathers) face.before_current = gaps_[face.before_tail].capped;
-    emit(gaps_[face.tail], face);
+    const uint8_t after_head = Script::kGathers ? face.head->next->capped : uint8_t{0};
+    if (Script::kGathers) face.before_current = face.before_tail->capped;
+    emit(*face.tail, face);
     while (face.missing > 0) {
-      const VertexAnswer vertex = script_.vertex(face.question(), gaps_);
+      const VertexAnswer vertex = script_.vertex(face.question());
       if (vertex.valence == 0) face = split(face);
       if (vertex.valence == 0 ? face.error != Error::kNone : !addVertex(vertex, face)) return false;
     }
     const Index last_corner = face.corner - 1;
-    for (Index gap = face.head; gap != face.start; gap = gaps_[gap].next) emitKnown(gaps_[gap], face);
-    Gap &head = gaps_[face.head], &last = gaps_[face.current];
+    for (const Gap* gap = face.head; gap != face.start; gap = gap->next) emitKnown(*gap, face);
+    Gap &head = *face.head, &last = *face.current;
     face.error = Error::kMalformed;
     if (last.free_slots == 0 || pinched_) return false;
     if (Script::kGathers && face.is_new) last.opposite_own = head.capped;
-    closeBoundary(face.head, face.current, last_corner, face);
+    closeBoundary(head, last, last_corner, face);
     if (Script::kGathers) head.opposite_own = after_head;
     if (splits_ != splits && !finishSplits(face)) return false;
     leave(face.stretch, face.head, face.answer);
@@ -147,23 +154,21 @@ class Walk : public Boundary<Script> {
 
   // A vertex that nobody knew; becomes the current one.
   [[gnu::always_inline]] bool addVertex(const VertexAnswer& vertex, Face& face) {
-    face.error = script_.fault();
-    if (face.error != Error::kNone) return false;
+    if (script_.faulty()) return face.error = script_.fault(), false;
     face.error = Error::kLimitExceeded;
     if (umbrellas_ >= limits_.max_corners) return false;
-    const Index gap = gaps_.create();
-    Gap& record = gaps_[gap];
-    record.umbrella = static_cast<Index>(umbrellas_++);
-    record.valence = vertex.valence;
-    record.free_slots = vertex.valence - 1;
-    record.flat = flatAngle(vertex.valence);
-    record.capped = static_cast<uint16_t>(std::min(vertex.valence, Index{14}));
-    if (face.current != kNone) closeBoundary(gap, face.current, face.corner - 1, face);
-    if (vertex.dummy) dummy_umbrellas_.push_back(record.umbrella);
+    Gap& gap = gaps_.create();
+    gap.umbrella = static_cast<Index>(umbrellas_++);
+    gap.valence = vertex.valence;
+    gap.free_slots = vertex.valence - 1;
+    gap.flat = flatAngle(vertex.valence);
+    gap.capped = static_cast<uint8_t>(std::min(vertex.valence, Index{14}));
+    if (face.current != nullptr) Base::template closeBoundary<true>(gap, *face.current, face.corner - 1, face);
+    if (vertex.dummy) dummy_umbrellas_.push_back(gap.umbrella);
     become(gap, face, true);
     --face.missing;
     ++face.found;
-    know(record, face);
+    know(gap, face);
     return true;
   }
 
@@ -175,20 +180,20 @@ class Walk : public Boundary<Script> {
     if (face.error != Error::kNone) return face;
     face.error = Error::kMalformed;
     if (answer.gap >= gaps_.highWater() || !gaps_[answer.gap].queued) return face;
-    const Index slots = gaps_[answer.gap].free_slots;
-    if (slots < 2 || answer.slots_after > slots - 2) return face;
+    Gap& gap = gaps_[answer.gap];
+    if (gap.free_slots < 2 || answer.slots_after > gap.free_slots - 2) return face;
     ++splits_;
-    const Index before = divide(answer);
-    closeBoundary(before, face.current, face.corner - 1, face);
-    segments_.push_back({face.stretch, before});
-    become(answer.gap, face, false);
+    Gap& before = divide(gap, answer.slots_after);
+    closeBoundary(before, *face.current, face.corner - 1, face);
+    segments_.push_back({face.stretch, &before});
+    become(gap, face, false);
     --face.missing;
     ++face.found;
-    know(gaps_[face.current], face);
-    while (gaps_[face.current].free_slots == 0) {
-      const Index used = face.current, next = gaps_[used].next;
+    know(gap, face);
+    while (face.current->free_slots == 0) {
+      Gap &used = *face.current, &next = *used.next;
       if (face.missing == 0 || !take(next, face)) return face;
-      pairLast(gaps_[used].behind, face);
+      pairLast(used.behind, face);
       gaps_.release(used);
       become(next, face, false);
       --face.missing;
@@ -199,13 +204,15 @@ class Walk : public Boundary<Script> {
   }
 
   // Cuts a gap in two around the slot that the face takes: a new one keeps the arriving edge, the old one the leaving.
-  Index divide(const SplitAnswer& answer) {
-    gaps_.dequeue(answer.gap);
-    const Index before = gaps_.create();
-    gaps_[before] = gaps_[answer.gap];
-    gaps_[before].free_slots -= 1 + answer.slots_after;
-    gaps_[gaps_[before].prev].next = before;
-    gaps_[answer.gap].free_slots = answer.slots_after;
+  Gap& divide(Gap& gap, Index slots_after) {
+    gaps_.dequeue(gap);
+    Gap& before = gaps_.create();
+    const Index number = before.number;
+    before = gap;
+    before.number = number;
+    before.free_slots -= 1 + slots_after;
+    before.prev->next = &before;
+    gap.free_slots = slots_after;
     return before;
   }
 
@@ -226,8 +233,7 @@ class Walk : public Boundary<Script> {
   // Checks the answer, and begins the face.
   [[gnu::always_inline]] bool open(Face& face) {
     const FaceAnswer& answer = face.answer;
-    face.error = script_.fault();
-    if (face.error != Error::kNone) return false;
+    if (script_.faulty()) return face.error = script_.fault(), false;
     face.error = Error::kMalformed;
     if (answer.degree < least_degree_ || answer.degree < face.edges) return false;
     if (face.closed != (answer.degree == face.edges)) return false;
@@ -235,7 +241,7 @@ class Walk : public Boundary<Script> {
     face.first_corner = face.corner = corners_.size();
     // Every corner of a dummy face lies against a corner of the mesh.
     if (answer.degree > limits_.max_corners - (answer.dummy ? 0 : face.corner)) return false;
-    corners_.makeRoom(face.corner + face.edges + 2);
+    corners_.makeRoom(face.corner + std::max(face.edges + 2, Base::kRoom));
     if (answer.dummy) return true;
     if (degrees_.size() >= limits_.max_faces) return false;
     degrees_.add(answer.degree);
@@ -244,7 +250,7 @@ class Walk : public Boundary<Script> {
 
   // A stretch of the boundary along the current face, from a split back.
   struct Segment {
-    Index tail, head;
+    Gap *tail, *head;
   };
 
   Index least_degree_;

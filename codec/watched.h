@@ -11,10 +11,11 @@ namespace tutte {
 
 /// Watches nothing, and costs nothing. Other observers have the same members.
 struct Unwatched {
+  static constexpr bool kSums = false;  ///< wants sums of valences
   template <class Port>
   static void open(Port& /*valences*/, Port& /*degrees*/) {}
   static void component(bool) {}
-  static void face(const FaceQuestion&, const FaceAnswer&, const Gaps&) {}
+  static void face(const FaceQuestion&, const FaceAnswer&) {}
   static void vertex(const VertexQuestion&, Index) {}
   static void split(const SplitAnswer&) {}
 };
@@ -23,6 +24,8 @@ struct Unwatched {
 template <class Script, class Observer>
 class Watched : public Script {
  public:
+  static constexpr bool kSums = Script::kSums || Observer::kSums;
+
   template <class... Arguments>
   explicit Watched(Observer& observer, Arguments&&... arguments)
       : Script(std::forward<Arguments>(arguments)...), observer_(observer) {}
@@ -33,14 +36,20 @@ class Watched : public Script {
     return another;
   }
 
-  FaceAnswer face(const FaceQuestion& question, const Gaps& gaps) {
-    const FaceAnswer answer = Script::face(question, gaps);
-    observer_.face(question, answer, gaps);
+  [[gnu::always_inline]] FaceAnswer face(const FaceQuestion& question) {
+    const FaceAnswer answer = Script::face(question);
+    observer_.face(question, answer);
     return answer;
   }
 
-  VertexAnswer vertex(const VertexQuestion& question, const Gaps& gaps) {
-    const VertexAnswer answer = Script::vertex(question, gaps);
+  [[gnu::always_inline]] VertexAnswer vertex(const VertexQuestion& question) {
+    const VertexAnswer answer = Script::vertex(question);
+    observer_.vertex(question, answer.valence);
+    return answer;
+  }
+
+  VertexAnswer seedVertex(const VertexQuestion& question) {
+    const VertexAnswer answer = Script::seedVertex(question);
     observer_.vertex(question, answer.valence);
     return answer;
   }

@@ -148,13 +148,13 @@ FACE = {
 }
 
 DEFAULT_VERTEX = ['predicted', 'head ring', 'nothing', 'ends', 'slots', 'history', 'sums']
-DEFAULT_FACE = ['ends', 'near angle', 'history', 'around']
+DEFAULT_FACE = ['ends', 'near angle', 'history', 'around', 'nothing']
 PROFILES = {
     1: (['predicted'], ['ends'], False),
     2: (DEFAULT_VERTEX, DEFAULT_FACE, False),
     3: (DEFAULT_VERTEX + ['predicted sums', 'beyond', 'current ring', 'degrees', 'ends and slots', 'degree after',
                           'sums and slots', 'predicted slots'],
-        DEFAULT_FACE + ['edge', 'least', 'angles', 'degrees', 'behind', 'sums', 'slots', 'both', 'edge and degrees', 'dummies', 'nothing'], True),
+        DEFAULT_FACE[:4] + ['edge', 'least', 'angles', 'degrees', 'behind', 'sums', 'slots', 'both', 'edge and degrees', 'dummies', 'nothing'], True),
 }
 
 
@@ -168,6 +168,7 @@ class Mixed:
         self.valences, self.degrees = [0, 0, 0], [0, 0, 0]
         self.counts = [[0] * 16 for _ in range(16)]
         self.usual = [6 if i == 3 else 4 for i in range(16)]
+        self.degree_counts, self.usual_degree = [0] * 16, 0 if rich else 4
         self.dummy_degree, self.large_degree, self.large_valence = Number(), Number(), Number()
 
     def decide(self, stream, mixer, node, situation, answer):
@@ -183,9 +184,9 @@ class Mixed:
     def face(self, stream, walk, start, edges, closed):
         self.contradicted = False
         degree, dummy = self.read_face(stream, walk, start, edges, closed)
-        symbol = 1 if dummy else degree
-        self.degrees = [min(symbol, 255)] + self.degrees[:2]
         if not self.section.degrees_known:
+            symbol = 1 if dummy else degree
+            self.degrees = [min(symbol, 255)] + self.degrees[:2]
             self.match.add(128 + min(symbol, 100))
         return degree, dummy
 
@@ -197,20 +198,40 @@ class Mixed:
         if degree and not may_be_dummy:
             return degree, False
         f = FaceFeatures(walk, start, edges, walk.face_head, walk.face_tail, self.valences, self.degrees)
-        self.faces.enter([FACE[name](f) for name in self.face_contexts])
+        least, usual = max(self.section.least_degree, edges + 1), self.usual_degree
+        self.faces.enter([FACE[name](f) | min(usual, 15) << 44 for name in self.face_contexts])
         situation = f.behind * 3 + min(f.known, 3) - (f.known > 0)
-        if may_be_dummy:
-            if self.decide(stream, self.faces, 0, situation, lambda s: int(s == 129) if s >= 128 else None):
-                return (degree if closed else 3 + self.dummy_degree.read(stream)), True
+
+        def decide(node, step, told):
+            return self.decide(stream, self.faces, node, situation + 64 * step,
+                               lambda s: int(told(s - 128)) if s >= 128 else None)
+
+        if not degree and usual >= least and decide(0, 0, lambda x: x == usual):
+            return self.counted_degree(usual), False
+        if may_be_dummy and decide(1, 1, lambda x: x == 1):
+            return (degree if closed else 3 + self.dummy_degree.read(stream)), True
         if degree:
             return degree, False
-        least = max(self.section.least_degree, edges + 1)
-        for degree in range(least, least + 20):
-            node, step = min(degree - 2, 15), 1 + min(degree - least, 2)
-            told = lambda s: int(s == 128 + degree) if s >= 128 else None
-            if self.decide(stream, self.faces, node, situation + 64 * step, told):
-                return degree, False
-        return least + 20 + self.large_degree.read(stream), False
+        return self.counted_degree(self.read_unusual_degree(stream, usual, least, decide)), False
+
+    def read_unusual_degree(self, stream, usual, least, decide):
+        if usual > least and decide(2, 2, lambda x: x < usual):
+            for degree in range(usual - 1, least, -1):
+                if decide(min(2 + usual - degree, 6), 3, lambda x: x == degree):
+                    return degree
+            return least
+        first = max(usual + 1, least)
+        for degree in range(first, first + 20):
+            if decide(min(6 + degree - usual, 15), 4, lambda x: x == degree):
+                return degree
+        return first + 20 + self.large_degree.read(stream)
+
+    def counted_degree(self, degree):
+        if 3 <= degree <= 15 and self.usual_degree:
+            self.degree_counts[degree] += 1
+            if self.degree_counts[degree] > self.degree_counts[self.usual_degree]:
+                self.usual_degree = degree
+        return degree
 
     def vertex(self, stream, walk):
         face = 1 if walk.dummy else min(walk.degree, 15)

@@ -19,16 +19,21 @@ class Masked : public PaperStatistics {
   explicit Masked(const SectionHeader& header) : PaperStatistics(header), header_(header) {}
 
   template <class Port>
-  FaceAnswer face(Port& port, FaceQuestion question, const Gaps& gaps, const FaceAnswer& truth) {
+  FaceAnswer face(Port& port, FaceQuestion question, const FaceAnswer& truth) {
     // Where all degrees are equal, only dummy faces are coded, with contexts in either case.
-    if (!kDegreeContexts && header_.uniform_degree == 0 && !question.closed) question.gap = kNone;
-    return PaperStatistics::face(port, question, gaps, truth);
+    if (!kDegreeContexts && header_.uniform_degree == 0 && !question.closed) question.gap = nullptr;
+    return PaperStatistics::face(port, question, truth);
   }
 
   template <class Port>
-  Index vertex(Port& port, VertexQuestion question, const Gaps& gaps, Index truth) {
+  Index vertex(Port& port, VertexQuestion question, Index truth) {
     if (!kValenceContexts) question.degree = 6;  // as all that are not 3, 4 or 5
-    return PaperStatistics::vertex(port, question, gaps, truth);
+    return PaperStatistics::vertex(port, question, truth);
+  }
+
+  template <class Port>
+  Index seedVertex(Port& port, const VertexQuestion& question, Index truth) {
+    return vertex(port, question, truth);
   }
 
  private:
