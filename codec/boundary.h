@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "codec/appender.h"
@@ -18,7 +19,7 @@ template <class Script>
 class Boundary {
  public:
   /// Per umbrella: 1 when a dummy face touches it.
-  const std::vector<uint8_t>& onBoundary() const { return on_boundary_; }
+  std::vector<uint8_t> onBoundary() && { return std::move(on_boundary_); }
 
  protected:
   Boundary(Script& script, TieRule tie, size_t expected_corners)

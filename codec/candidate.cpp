@@ -23,10 +23,10 @@ Result<WalkedCandidate> walkWith(const Topology& topology, const Candidate& cand
   WalkedCandidate walked;
   walked.header = header;
   walked.connectivity = std::move(walk.connectivity());
-  walked.order = {oracle.startCorners(), oracle.umbrellaOrder()};
+  walked.order = {std::move(oracle).startCorners(), std::move(oracle).umbrellaOrder()};
   walked.components = candidate.components;
-  walked.on_boundary = walk.onBoundary();
-  walked.dummy_umbrellas = walk.dummyUmbrellas();
+  walked.on_boundary = std::move(walk).onBoundary();
+  walked.dummy_umbrellas = std::move(walk).dummyUmbrellas();
   walked.valences = std::move(valences);
   walked.degrees = std::move(degrees);
   walked.splits = walk.splits();
@@ -42,7 +42,7 @@ std::vector<Index> expandCorners(const Topology& topology, const std::vector<Ind
   std::vector<Index> corners(topology.faces.first[topology.real_faces]);
   Index* at = corners.data();
   for (const Index start : start_corners) {
-    const Index face = topology.faces.face[start];
+    const Index face = topology.faces.faceOf(start);
     const Index first = topology.faces.first[face], end = topology.faces.first[face + 1];
     for (Index corner = start; corner < end; ++corner) *at++ = corner;
     for (Index corner = first; corner < start; ++corner) *at++ = corner;
@@ -53,7 +53,7 @@ std::vector<Index> expandCorners(const Topology& topology, const std::vector<Ind
 Sources primalSources(const Topology& topology, WalkedCandidate& walked) {
   Sources sources{expandCorners(topology, walked.order.start_corners), {}, std::move(walked.order.umbrellas)};
   sources.faces.reserve(walked.order.start_corners.size());
-  for (const Index start : walked.order.start_corners) sources.faces.push_back(topology.faces.face[start]);
+  for (const Index start : walked.order.start_corners) sources.faces.push_back(topology.faces.faceOf(start));
   return sources;
 }
 
@@ -64,31 +64,30 @@ Sources dualSources(const DualTopology& dual, const PrimalMesh& primal, const To
   for (const Index c : primal.dual_corner) sources.corners.push_back(dual.primal_corner[dual_corners[c]]);
   Index first = 0;
   for (const Index degree : primal.connectivity.face_degrees) {
-    sources.faces.push_back(primal_topology.faces.face[sources.corners[first]]);
+    sources.faces.push_back(primal_topology.faces.faceOf(sources.corners[first]));
     first += degree;
   }
   for (const Index start : walked.order.start_corners) {
-    sources.umbrellas.push_back(dual.primal_umbrella[dual.topology.faces.face[start]]);
+    sources.umbrellas.push_back(dual.primal_umbrella[dual.topology.faces.faceOf(start)]);
   }
   return sources;
 }
 
-Index original(const std::vector<Index>& sources, Index index) { return sources.empty() ? index : sources[index]; }
+// Puts what is named in place of its number, where it has another name.
+std::vector<Index> renamed(const std::vector<Index>& names, std::vector<Index> numbers) {
+  if (names.empty()) return numbers;
+  for (Index& number : numbers) number = names[number];
+  return numbers;
+}
 
-// Fills in the orders of faces and corners, and notes flips and strays.
-RepairNotes orderFaces(const Topology& topology, const Sources& sources, PolygonView mesh, Encoded& encoded) {
+// Fills in the orders of faces and corners, and notes flips and strays. What `sources` says of those is moved away.
+RepairNotes orderFaces(const Topology& topology, Sources& sources, PolygonView mesh, Encoded& encoded) {
   RepairNotes notes;
-  encoded.face_order.reserve(mesh.face_degrees.size());
-  for (const Index face : sources.faces) {
-    encoded.face_order.push_back(original(topology.source_face, face));
-    if (!topology.flipped.empty()) notes.flipped.push_back(topology.flipped[face]);
+  if (!topology.flipped.empty()) {
+    for (const Index face : sources.faces) notes.flipped.push_back(topology.flipped[face]);
   }
-  encoded.corner_order.reserve(mesh.corners.size());
-  if (topology.source_corner.empty()) {
-    encoded.corner_order.insert(encoded.corner_order.end(), sources.corners.begin(), sources.corners.end());
-  } else {
-    for (const Index corner : sources.corners) encoded.corner_order.push_back(topology.source_corner[corner]);
-  }
+  encoded.face_order = renamed(topology.source_face, std::move(sources.faces));
+  encoded.corner_order = renamed(topology.source_corner, std::move(sources.corners));
   if (topology.strays.empty()) return notes;
   std::vector<Index> first(mesh.face_degrees.size() + 1, 0);
   for (size_t f = 0; f < mesh.face_degrees.size(); ++f) first[f + 1] = first[f] + mesh.face_degrees[f];
@@ -101,11 +100,11 @@ RepairNotes orderFaces(const Topology& topology, const Sources& sources, Polygon
 }
 
 // Numbers the vertices by their first umbrella, isolated ones last.
-void orderVertices(const Topology& topology, const Sources& sources, PolygonView mesh, Encoded& encoded,
+void orderVertices(const Topology& topology, const std::vector<Index>& umbrellas, PolygonView mesh, Encoded& encoded,
                    RepairNotes& notes) {
   std::vector<Index> number(mesh.vertex_count, kNone), vertices;
   encoded.vertex_order.reserve(mesh.vertex_count);
-  vertices.reserve(sources.umbrellas.size());
+  vertices.reserve(umbrellas.size());
   const auto meet = [&](Index vertex) {
     if (number[vertex] == kNone) {
       number[vertex] = static_cast<Index>(encoded.vertex_order.size());
@@ -113,8 +112,8 @@ void orderVertices(const Topology& topology, const Sources& sources, PolygonView
     }
     vertices.push_back(number[vertex]);
   };
-  for (const Index umbrella : sources.umbrellas) meet(topology.vertex_of[umbrella]);
-  for (size_t i = sources.corners.size(); i < encoded.corner_order.size(); ++i) {
+  for (const Index umbrella : umbrellas) meet(topology.vertex_of[umbrella]);
+  for (size_t i = topology.faces.first[topology.real_faces]; i < encoded.corner_order.size(); ++i) {
     meet(mesh.corners[encoded.corner_order[i]]);  // strays
   }
   if (vertices.size() != encoded.vertex_order.size()) notes.vertices = std::move(vertices);
@@ -150,7 +149,7 @@ Result<Encoded> finishCandidate(TopologyPair& topologies, WalkedCandidate&& walk
     sources = primalSources(primal, walked);
   }
   RepairNotes notes = orderFaces(topologies.primal(), sources, mesh, encoded);
-  orderVertices(topologies.primal(), sources, mesh, encoded, notes);
+  orderVertices(topologies.primal(), sources.umbrellas, mesh, encoded, notes);
   encoded.connectivity = std::move(walked.connectivity);
   walked.header.repairs = notes.any();
   if (notes.any()) {

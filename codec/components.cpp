@@ -14,7 +14,7 @@ std::vector<Index> collectComponent(const Topology& topology, Index root, std::v
   for (size_t i = 0; i < component.size(); ++i) {
     const Index f = component[i];
     for (Index c = faces.first[f]; c < faces.first[f + 1]; ++c) {
-      const Index other = faces.face[topology.twin[c]];
+      const Index other = faces.faceOf(topology.twin[c]);
       if (seen[other]) continue;
       seen[other] = 1;
       component.push_back(other);
@@ -40,7 +40,7 @@ uint64_t ringOf(const Topology& topology, Index corner) {
 uint64_t signatureOf(const Topology& topology, Index corner, bool mirrored) {
   const FaceCorners& faces = topology.faces;
   const auto degree = [&](Index c) {
-    const Index f = faces.face[c];
+    const Index f = faces.faceOf(c);
     return uint64_t{faces.first[f + 1] - faces.first[f]} << 1 | topology.isDummy(f);
   };
   uint64_t from = ringOf(topology, corner), to = ringOf(topology, faces.next(corner));
@@ -59,7 +59,7 @@ class Matcher {
     for (size_t i = 0; same && i < edges_.size(); ++i) {
       const Index edge = edges_[i], image = image_[edge];
       const Index image_origin = mirrored ? faces.next(image) : image;
-      same = topology_.isDummy(faces.face[edge]) == topology_.isDummy(faces.face[image]) &&
+      same = topology_.isDummy(faces.faceOf(edge)) == topology_.isDummy(faces.faceOf(image)) &&
              ringOf(topology_, edge) == ringOf(topology_, image_origin) &&
              assign(faces.next(edge), mirrored ? faces.prev(image) : faces.next(image)) &&
              assign(topology_.twin[edge], topology_.twin[image]);
@@ -96,7 +96,7 @@ void mirrorComponent(Topology& topology, const std::vector<Index>& component) {
     topology.source_corner.resize(faces.first[topology.real_faces]);
     for (Index c = 0; c < topology.source_corner.size(); ++c) topology.source_corner[c] = c;
   }
-  const auto turned = [&](Index c) { return faces.first[faces.face[c]] + faces.first[faces.face[c] + 1] - 1 - c; };
+  const auto turned = [&](Index c) { return faces.first[faces.faceOf(c)] + faces.first[faces.faceOf(c) + 1] - 1 - c; };
   for (const Index f : component) {
     const Index first = faces.first[f], end = faces.first[f + 1];
     std::reverse(faces.vertex.begin() + first + 1, faces.vertex.begin() + end);
@@ -195,7 +195,7 @@ std::vector<Index> componentsOfFaces(const Topology& topology, const std::vector
   if (plans.size() < 2) return component_of;
   std::vector<uint8_t> seen(topology.faces.faceCount(), 0);
   for (Index i = 0; i < plans.size(); ++i) {
-    for (const Index f : collectComponent(topology, topology.faces.face[plans[i].seed], seen)) component_of[f] = i;
+    for (const Index f : collectComponent(topology, topology.faces.faceOf(plans[i].seed), seen)) component_of[f] = i;
   }
   return component_of;
 }

@@ -42,9 +42,9 @@ Result<Connectivity> decodeStreams(const SectionHeader& header, const SectionStr
   const size_t expected = expectedCorners(streams, walk_limits);
   Walk walk(script, header.tie, header.leastDegree(), walk_limits, expected);
   if (const Error error = walk.run(); error != Error::kNone) return error;
-  PrimalMesh primal{std::move(walk.connectivity()), {}, walk.onBoundary()};
+  PrimalMesh primal{std::move(walk.connectivity()), {}, std::move(walk).onBoundary()};
   if (header.dual) {
-    Result<PrimalMesh> turned = primalOf(primal.connectivity, walk.dummyUmbrellas(), limits);
+    Result<PrimalMesh> turned = primalOf(primal.connectivity, std::move(walk).dummyUmbrellas(), limits);
     if (!turned) return turned.error();
     primal = std::move(*turned);
   }

@@ -16,7 +16,7 @@ DualTopology dualOf(const Topology& primal) {
     for (Index at = c; dual_corner[at] == kNone; at = primal.twin[faces.prev(at)]) {
       dual_corner[at] = static_cast<Index>(dual.primal_corner.size());
       dual.primal_corner.push_back(at);
-      dual_faces.vertex.push_back(faces.face[at]);
+      dual_faces.vertex.push_back(faces.faceOf(at));
       dual_faces.face.push_back(dual_face);
     }
     dual.primal_umbrella.push_back(faces.vertex[c]);

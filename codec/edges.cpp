@@ -1,6 +1,7 @@
 #include "codec/edges.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tutte {
 namespace {
@@ -85,34 +86,75 @@ void pairBucket(const FaceCorners& faces, HalfEdge* begin, HalfEdge* end, bool a
   }
 }
 
+// Calls visit(corner, from, to) for every edge of the faces that are not isolated.
+template <class Visit>
+void forEachEdge(const FaceCorners& faces, std::span<const uint8_t> isolated, Visit&& visit) {
+  for (Index f = 0; f < faces.faceCount(); ++f) {
+    if (!isolated.empty() && isolated[f]) continue;
+    const Index end = faces.first[f + 1];
+    Index previous = end - 1;
+    for (Index c = faces.first[f]; c < end; previous = c++) visit(previous, faces.vertex[previous], faces.vertex[c]);
+  }
+}
+
+// Where each vertex's bucket begins, of the edges whose smaller vertex it is.
+std::vector<Index> bucketStarts(const FaceCorners& faces, std::span<const uint8_t> isolated, Index vertex_count) {
+  std::vector<Index> starts(vertex_count + 1, 0);
+  forEachEdge(faces, isolated, [&](Index, Index from, Index to) { ++starts[std::min(from, to)]; });
+  Index sum = 0;
+  for (Index& start : starts) sum += std::exchange(start, sum);
+  return starts;
+}
+
+// Pairs edges as they come: a bucket holds the first side of each. False: some edge has not one side up and one down,
+// which is not for here to judge. Otherwise this is what sorting would give.
+bool pairAsTheyCome(const FaceCorners& faces, std::span<const uint8_t> isolated, std::vector<Index> ends,
+                    const std::vector<Index>& starts, std::vector<HalfEdge>& edges, EdgePairs& pairs) {
+  bool clear = true;
+  forEachEdge(faces, isolated, [&](Index corner, Index from, Index to) {
+    const bool down = from > to;
+    const Index near = down ? to : from, far = (down ? from : to) << 1 | static_cast<Index>(down);
+    HalfEdge* const begin = &edges[starts[near]];
+    HalfEdge* const end = &edges[ends[near]];
+    HalfEdge* other = begin;
+    while (other != end && other->far >> 1 != far >> 1) ++other;
+    if (other == end) {
+      *end = {far, corner};
+      ++ends[near];
+      return;
+    }
+    if (other->far == far || other->corner == kNone) {
+      clear = false;
+    } else {
+      pairUp(corner, std::exchange(other->corner, kNone), pairs);
+    }
+  });
+  return clear;
+}
+
 }  // namespace
+
+void FaceCorners::listFaces() {
+  triangles = false;
+  face.resize(vertex.size());
+  for (Index f = 0; f < faceCount(); ++f) std::fill(face.begin() + first[f], face.begin() + first[f + 1], f);
+}
 
 EdgePairs pairEdges(const FaceCorners& faces, Index vertex_count, std::span<const uint8_t> isolated,
                     bool allow_conflicts) {
-  const Index corners = static_cast<Index>(faces.vertex.size());
-  std::vector<Index> bucket_end(vertex_count + 1, 0);
-  const auto forEachEdge = [&](auto&& visit) {
-    for (Index f = 0; f < faces.faceCount(); ++f) {
-      if (!isolated.empty() && isolated[f]) continue;
-      const Index end = faces.first[f + 1];
-      Index previous = end - 1;
-      for (Index c = faces.first[f]; c < end; previous = c++) visit(previous, faces.vertex[previous], faces.vertex[c]);
-    }
-  };
-  forEachEdge([&](Index, Index from, Index to) { ++bucket_end[std::min(from, to) + 1]; });
-  for (Index v = 0; v < vertex_count; ++v) bucket_end[v + 1] += bucket_end[v];
-  std::vector<HalfEdge> edges(bucket_end[vertex_count]);
-  // After this, bucket_end[v] is the end of bucket v.
-  forEachEdge([&](Index corner, Index from, Index to) {
-    const bool down = from > to;
-    edges[bucket_end[down ? to : from]++] = {(down ? from : to) << 1 | static_cast<Index>(down), corner};
-  });
   EdgePairs pairs;
-  pairs.twin.assign(corners, kNone);
-  Index begin = 0;
+  pairs.twin.assign(faces.vertex.size(), kNone);
+  const std::vector<Index> starts = bucketStarts(faces, isolated, vertex_count);
+  std::vector<HalfEdge> edges(starts[vertex_count] + 1);
+  if (pairAsTheyCome(faces, isolated, starts, starts, edges, pairs)) return pairs;
+  std::fill(pairs.twin.begin(), pairs.twin.end(), kNone);
+  std::vector<Index> ends = starts;
+  forEachEdge(faces, isolated, [&](Index corner, Index from, Index to) {
+    const bool down = from > to;
+    edges[ends[down ? to : from]++] = {(down ? from : to) << 1 | static_cast<Index>(down), corner};
+  });
   for (Index v = 0; v < vertex_count; ++v) {
-    pairBucket(faces, edges.data() + begin, edges.data() + bucket_end[v], allow_conflicts, pairs);
-    begin = bucket_end[v];
+    pairBucket(faces, edges.data() + starts[v], edges.data() + ends[v], allow_conflicts, pairs);
   }
   return pairs;
 }

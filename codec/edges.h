@@ -13,17 +13,24 @@ namespace tutte {
 struct FaceCorners {
   std::vector<Index> first;
   std::vector<Index> vertex;
-  std::vector<Index> face;  ///< per corner
+  std::vector<Index> face;  ///< per corner, unless all faces are triangles
+  bool triangles = false;   ///< all faces are
 
   Index faceCount() const { return static_cast<Index>(first.size()) - 1; }
+  Index faceOf(Index corner) const { return triangles ? corner / 3 : face[corner]; }
   Index next(Index corner) const {
+    if (triangles) return corner % 3 == 2 ? corner - 2 : corner + 1;
     const Index f = face[corner];
     return corner + 1 == first[f + 1] ? first[f] : corner + 1;
   }
   Index prev(Index corner) const {
+    if (triangles) return corner % 3 == 0 ? corner + 2 : corner - 1;
     const Index f = face[corner];
     return corner == first[f] ? first[f + 1] - 1 : corner - 1;
   }
+
+  /// Other faces than triangles can follow.
+  void listFaces();
 };
 
 /// Which edges are paired.

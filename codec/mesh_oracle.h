@@ -22,13 +22,19 @@ class MeshOracle {
         face_done_(topology.faces.faceCount(), 0),
         umbrella_known_(topology.valence.size(), 0),
         gap_at_(topology.twin.size(), kNone) {
-    start_corners_.reserve(topology.real_faces);
-    umbrella_order_.reserve(topology.valence.size());
+    start_corners_.resize(topology.real_faces);
+    umbrella_order_.resize(topology.valence.size());
   }
 
   /// In coded order: the topology's corner at which each real face begins, and the topology's umbrellas.
-  const std::vector<Index>& startCorners() const { return start_corners_; }
-  const std::vector<Index>& umbrellaOrder() const { return umbrella_order_; }
+  std::vector<Index> startCorners() && {
+    start_corners_.resize(faces_);
+    return std::move(start_corners_);
+  }
+  std::vector<Index> umbrellaOrder() && {
+    umbrella_order_.resize(umbrellas_);
+    return std::move(umbrella_order_);
+  }
 
   bool component() { return next_component_ < plans_.size(); }
 
@@ -39,24 +45,24 @@ class MeshOracle {
     enter(plans_[next_component_++].seed);
     corner_ = corner_ == first_ ? end_ - 1 : corner_ - 1;  // the first step() leads to the first corner
   }
-  void start(const Gap& gap) {
+  [[gnu::always_inline]] void start(const Gap& gap) {
     enter(outside_[gap.number]);
     step();
   }
-  void step() { corner_ = following(); }
-  void cross(const Gap& gap) {
-    if (gap.number >= outside_.size()) outside_.resize(2 * gap.number + 64);
+  [[gnu::always_inline]] void step() { corner_ = following(); }
+  [[gnu::always_inline]] void cross(const Gap& gap) {
+    if (gap.number >= outside_.size()) makeRoom(gap.number);
     const Index corner = outside_[gap.number] = topology_.twin[corner_];
     gap_at_[corner] = gap.number;
   }
 
   FaceAnswer face() const { return {end_ - first_, topology_.isDummy(face_)}; }
 
-  VertexAnswer vertex() {
+  [[gnu::always_inline]] VertexAnswer vertex() {
     const Index umbrella = topology_.faces.vertex[following()];
     if (umbrella_known_[umbrella]) return {};
     umbrella_known_[umbrella] = 1;
-    umbrella_order_.push_back(umbrella);
+    umbrella_order_[umbrellas_++] = umbrella;
     const bool dummy = !topology_.dummy_umbrella.empty() && topology_.dummy_umbrella[umbrella];
     return {topology_.valence[umbrella], dummy};
   }
@@ -77,10 +83,12 @@ class MeshOracle {
   }
 
  private:
-  void enter(Index corner) {
-    face_ = topology_.faces.face[corner];
+  [[gnu::noinline]] void makeRoom(Index gap) { outside_.resize(2 * gap + 64); }
+
+  [[gnu::always_inline]] void enter(Index corner) {
+    face_ = topology_.faces.faceOf(corner);
     face_done_[face_] = 1;
-    if (!topology_.isDummy(face_)) start_corners_.push_back(corner);
+    if (!topology_.isDummy(face_)) start_corners_[faces_++] = corner;
     corner_ = corner;
     first_ = topology_.faces.first[face_];
     end_ = topology_.faces.first[face_ + 1];
@@ -89,14 +97,15 @@ class MeshOracle {
   /// The next corner of the current face.
   Index following() const { return corner_ + 1 == end_ ? first_ : corner_ + 1; }
 
-  bool done(Index corner) const { return face_done_[topology_.faces.face[corner]]; }
+  bool done(Index corner) const { return face_done_[topology_.faces.faceOf(corner)]; }
 
   const Topology& topology_;
   std::span<const ComponentPlan> plans_;
   std::vector<uint8_t> face_done_, umbrella_known_;
   std::vector<Index> outside_;  // per gap: the corner whose edge is the leaving edge, in the face outside
   std::vector<Index> gap_at_;   // per corner outside the region: the gap whose leaving edge is its edge
-  std::vector<Index> start_corners_, umbrella_order_;
+  std::vector<Index> start_corners_, umbrella_order_;  // as far as faces_ and umbrellas_
+  size_t faces_ = 0, umbrellas_ = 0;
   size_t next_component_ = 0;
   Index face_ = 0, first_ = 0, end_ = 0, corner_ = 0;  // the current face, its corners, and the current one
 };

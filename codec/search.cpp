@@ -36,12 +36,12 @@ class Search {
     const size_t corners = std::max<size_t>(1, topologies_.primal().twin.size());
     profile_ = options_.profile ? *options_.profile : profileFor(corners);
     trials_left_ = trialsFor(options_.effort, corners);
-    if (const Error error = tryFirst(false); error != Error::kNone) return error;
+    if (const Error error = tryFirst(); error != Error::kNone) return error;
     if (trials_left_ > 0) tryVariants();
     if (trials_left_ > 2 && !best_candidate_.header.degreesKnown()) tryDual();
     trySeeds();
     while (best_candidate_.header.table_bits > mostTableBits(best_.bits() / 8)) {
-      --best_candidate_.header.table_bits;
+      best_candidate_.header.table_bits = mostTableBits(best_.bits() / 8);
       Result<WalkedCandidate> walked = walkCandidate(topologies_, best_candidate_);
       if (!walked) return walked.error();
       best_ = std::move(*walked);
@@ -58,10 +58,10 @@ class Search {
     return std::min(kMost[effort], kCorners[effort] / corners);
   }
 
-  Candidate candidateFor(bool dual) {
-    Topology& topology = topologies_.walked(dual);
+  Candidate candidateFor(bool dual, std::vector<ComponentPlan> components) {
+    const Topology& topology = topologies_.walked(dual);
     Candidate candidate;
-    candidate.components = planComponents(topology, repeatsFor(dual));
+    candidate.components = std::move(components);
     SectionHeader& header = candidate.header;
     header.dual = dual;
     header.closed = topologies_.primal().faces.faceCount() == topologies_.primal().real_faces;
@@ -80,8 +80,19 @@ class Search {
     return dual ? Repeats::kCopies : Repeats::kMirrored;
   }
 
-  Error tryFirst(bool dual) {
-    Candidate candidate = candidateFor(dual);
+  // A large mesh is hoped to be of one piece: only a walk that does not reach all faces shows that it is not.
+  Error tryFirst() {
+    constexpr Index kLarge = 50'000;
+    const Topology& topology = topologies_.primal();
+    if (topology.real_faces >= kLarge) {
+      const Error error = walkFirst({{topology.faces.first[0], kNone}});
+      if (error != Error::kNone || best_.order.start_corners.size() == topology.real_faces) return error;
+    }
+    return walkFirst(planComponents(topologies_.walked(false), repeatsFor(false)));
+  }
+
+  Error walkFirst(std::vector<ComponentPlan> components) {
+    Candidate candidate = candidateFor(false, std::move(components));
     Result<WalkedCandidate> walked = walkCandidate(topologies_, candidate);
     if (!walked) return walked.error();
     keep(std::move(candidate), std::move(*walked));
@@ -97,8 +108,25 @@ class Search {
   void attempt(Candidate candidate) {
     if (trials_left_ == 0) return;
     --trials_left_;
+    if (!looksBetter(candidate)) return;
     Result<WalkedCandidate> walked = walkCandidate(topologies_, candidate);
-    if (walked && walked->bits() < best_.bits()) keep(std::move(candidate), std::move(*walked));
+    if (!walked || walked->bits() >= best_.bits()) return;
+    keep(std::move(candidate), std::move(*walked));
+    best_estimate_ = estimate_;
+  }
+
+  // Where decisions are expensive, few candidates are coded with them: those that take fewer bits in profile fast.
+  bool looksBetter(const Candidate& candidate) {
+    if (profile_ != Profile::kSmall) return true;
+    if (best_estimate_ == 0) best_estimate_ = estimate(best_candidate_);
+    estimate_ = estimate(candidate);
+    return estimate_ < best_estimate_;
+  }
+
+  size_t estimate(Candidate candidate) {
+    candidate.header.profile = Profile::kFast;
+    const Result<WalkedCandidate> walked = walkCandidate(topologies_, candidate);
+    return walked ? walked->bits() : kNone;
   }
 
   void tryVariants() {
@@ -111,7 +139,7 @@ class Search {
   }
 
   void tryDual() {
-    const Candidate dual = candidateFor(true);
+    const Candidate dual = candidateFor(true, planComponents(topologies_.walked(true), repeatsFor(true)));
     attempt(dual);
     attempt(withTie(dual, other(dual.header.tie)));
   }
@@ -135,7 +163,7 @@ class Search {
     for (size_t misses = 0; trials_left_ > 0 && misses < 10'000; ++misses) {
       random = random * 6364136223846793005u + 1442695040888963407u;
       const Index seed = static_cast<Index>((random >> 33) % corners);
-      const Index component = component_of[topology.faces.face[seed]];
+      const Index component = component_of[topology.faces.faceOf(seed)];
       if (best_candidate_.components[component].original != kNone) continue;
       Candidate candidate = best_candidate_;
       moveSeed(topology, candidate.components, component, seed);
@@ -147,6 +175,7 @@ class Search {
   const EncodeOptions& options_;
   Profile profile_ = Profile::kDefault;
   size_t trials_left_ = 0;
+  size_t best_estimate_ = 0, estimate_ = 0;  // of the best candidate and the last one, in profile fast
   Candidate best_candidate_;
   WalkedCandidate best_;
 };

@@ -1,6 +1,7 @@
 #include "codec/topology.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tutte {
 namespace {
@@ -18,13 +19,6 @@ Error check(PolygonView mesh) {
     if (vertex >= mesh.vertex_count) return Error::kIndexOutOfRange;
   }
   return Error::kNone;
-}
-
-void fillFaceOfCorner(FaceCorners& faces) {
-  faces.face.resize(faces.vertex.size());
-  for (Index f = 0; f < faces.faceCount(); ++f) {
-    std::fill(faces.face.begin() + faces.first[f], faces.face.begin() + faces.first[f + 1], f);
-  }
 }
 
 // Faces of degree 3 and more; the others are noted as strays.
@@ -49,21 +43,30 @@ void collectFaces(PolygonView mesh, Topology& topology) {
       topology.source_corner.push_back(corner + i);
     }
   }
-  fillFaceOfCorner(faces);
+  faces.triangles = std::all_of(mesh.face_degrees.begin(), mesh.face_degrees.end(), [](Index d) { return d <= 3; });
+  if (!faces.triangles) faces.listFaces();
   topology.real_faces = faces.faceCount();
 }
 
 // Marks the faces that repeat a vertex; empty when none does.
 std::vector<uint8_t> findRepeating(const FaceCorners& faces, Index vertex_count) {
+  constexpr Index kFew = 8;  // vertices that are quicker compared with each other
   std::vector<uint8_t> repeating;
-  std::vector<Index> last_face(vertex_count, kNone);
-  for (Index c = 0; c < faces.vertex.size(); ++c) {
-    Index& last = last_face[faces.vertex[c]];
-    if (last == faces.face[c]) {
-      repeating.resize(faces.faceCount());
-      repeating[last] = 1;
+  std::vector<Index> last_face;
+  for (Index f = 0; f < faces.faceCount(); ++f) {
+    const Index first = faces.first[f], end = faces.first[f + 1];
+    bool repeats = false;
+    if (end - first <= kFew) {
+      for (Index c = first + 1; c < end; ++c) {
+        for (Index before = first; before < c; ++before) repeats |= faces.vertex[c] == faces.vertex[before];
+      }
+    } else {
+      last_face.resize(vertex_count, kNone);
+      for (Index c = first; c < end; ++c) repeats |= std::exchange(last_face[faces.vertex[c]], f) == f;
     }
-    last = faces.face[c];
+    if (!repeats) continue;
+    repeating.resize(faces.faceCount());
+    repeating[f] = 1;
   }
   return repeating;
 }
@@ -84,9 +87,9 @@ std::vector<uint8_t> chooseFlips(const FaceCorners& faces, const EdgePairs& pair
       flipped += flips[f];
       for (Index c = faces.first[f]; c < faces.first[f + 1]; ++c) {
         const Index twin = pairs.twin[c];
-        if (twin == kNone || flips[faces.face[twin]] != kUnseen) continue;
-        flips[faces.face[twin]] = flips[f] ^ static_cast<uint8_t>(faces.vertex[c] == faces.vertex[twin]);
-        component.push_back(faces.face[twin]);
+        if (twin == kNone || flips[faces.faceOf(twin)] != kUnseen) continue;
+        flips[faces.faceOf(twin)] = flips[f] ^ static_cast<uint8_t>(faces.vertex[c] == faces.vertex[twin]);
+        component.push_back(faces.faceOf(twin));
       }
     }
     if (2 * flipped <= component.size()) continue;
@@ -126,13 +129,16 @@ void pairFaces(Topology& topology, Index vertex_count) {
 void nameUmbrellas(Topology& topology, Index vertex_count) {
   FaceCorners& faces = topology.faces;
   const Index corners = static_cast<Index>(faces.vertex.size());
+  const Index* const twins = topology.twin.data();
+  Index* const vertices = faces.vertex.data();
   topology.valence.assign(vertex_count, 0);
   topology.vertex_of.resize(vertex_count);
   for (Index v = 0; v < vertex_count; ++v) topology.vertex_of[v] = v;
-  std::vector<uint8_t> named(corners, 0);
+  std::vector<uint8_t> names(corners, 0);
+  uint8_t* const named = names.data();
   for (Index c = 0; c < corners; ++c) {
     if (named[c]) continue;
-    Index umbrella = faces.vertex[c];
+    Index umbrella = vertices[c];
     if (topology.valence[umbrella] != 0) {
       topology.vertex_of.push_back(umbrella);
       umbrella = static_cast<Index>(topology.valence.size());
@@ -141,16 +147,16 @@ void nameUmbrellas(Topology& topology, Index vertex_count) {
     Index valence = 0;
     const auto name = [&](Index corner) {
       named[corner] = 1;
-      faces.vertex[corner] = umbrella;
+      vertices[corner] = umbrella;
       ++valence;
     };
     Index at = c;
     do {
       name(at);
-      at = topology.twin[faces.prev(at)];
+      at = twins[faces.prev(at)];
     } while (at != kNone && at != c);
     if (at == kNone) {
-      for (Index twin = topology.twin[c]; twin != kNone; twin = topology.twin[at]) name(at = faces.next(twin));
+      for (Index twin = twins[c]; twin != kNone; twin = twins[at]) name(at = faces.next(twin));
       ++valence;  // the dummy face's
     }
     topology.valence[umbrella] = valence;
@@ -163,6 +169,7 @@ void closeHoles(Topology& topology) {
   const Index real_corners = static_cast<Index>(faces.vertex.size());
   for (Index seed = 0; seed < real_corners; ++seed) {
     if (topology.twin[seed] != kNone) continue;
+    if (faces.triangles) faces.listFaces();
     Index open = seed;
     do {
       const Index dummy = static_cast<Index>(faces.vertex.size());

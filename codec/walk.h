@@ -69,7 +69,7 @@ class Walk : public Boundary<Script> {
   Index splits() const { return splits_; }
 
   /// The umbrellas that stand for dummy faces.
-  const std::vector<Index>& dummyUmbrellas() const { return dummy_umbrellas_; }
+  std::vector<Index> dummyUmbrellas() && { return std::move(dummy_umbrellas_); }
 
  private:
   using Base = Boundary<Script>;
