@@ -111,19 +111,17 @@ class ClassCoder {
     const int first = shift == 0 ? 0 : 2 * shift - 1;
     const int value_class = std::max(classOf(magnitude) - first, 0);
     int symbol = codeSymbol(port, about, level, std::min(value_class, kSymbols - 1));
-    uint32_t decoded;
-    if (symbol == 0) {
-      if (shift == 0) return 0;
-      decoded = port.bits(shift, magnitude);
-      if (decoded == 0) return 0;
-    } else {
-      if (symbol == kSymbols - 1) {
-        while (symbol + first < kMostClass &&
-               longer_[std::min(symbol - kSymbols + 1, 7)].code(port, value_class > symbol))
-          ++symbol;
-      }
-      decoded = codeDigits(port, symbol + first, magnitude);
+    if (symbol == kSymbols - 1) {
+      while (symbol + first < kMostClass &&
+             longer_[std::min(symbol - kSymbols + 1, 7)].code(port, value_class > symbol))
+        ++symbol;
     }
+    // The leading digits and how many follow.
+    const int coded_class = symbol == 0 ? 0 : symbol + first;
+    const int rest = symbol == 0 ? shift : std::max((coded_class >> 1) - 1, 0);
+    const auto leading = static_cast<uint32_t>(symbol == 0 ? 0 : coded_class - 2 * rest);
+    const uint32_t decoded = leading << rest | port.bits(rest, magnitude & ((1u << rest) - 1));
+    if (decoded == 0) return 0;
     Chance& sign = signs_[static_cast<size_t>((about.sign * 3 + about.rank) * 4 + std::min(symbol, 3))];
     const bool negative = sign.code(port, residual < 0);
     return negative ? -int64_t{decoded} : int64_t{decoded};
@@ -149,14 +147,6 @@ class ClassCoder {
     }
     firsts_.learn(first, symbol);
     return symbol;
-  }
-
-  template <class Port>
-  static uint32_t codeDigits(Port& port, int value_class, uint32_t magnitude) {
-    if (value_class < 4) return static_cast<uint32_t>(value_class);
-    const int rest = (value_class >> 1) - 1;
-    const uint32_t leading = 2u + static_cast<uint32_t>(value_class & 1);
-    return leading << rest | port.bits(rest, magnitude & ((1u << rest) - 1));
   }
 
   const bool two_;

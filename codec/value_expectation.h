@@ -12,16 +12,18 @@ inline constexpr int kSigns = 8 * 3;
 
 /// What is known about a residual before it is coded. Sizes are in 1/16 and not negative.
 struct Expectation {
-  int32_t estimate = 0;  ///< its size
-  int32_t near = 0;      ///< the errors of the same component at the neighbours
-  int32_t all = 0;       ///< the errors of all components there
-  int32_t so_far = 0;    ///< the errors of this site's components that are known
-  int32_t spread = 0;    ///< how much the predictions of the component disagree
-  int32_t widest = 0;    ///< the largest spread of all components
-  uint32_t members = 0;  ///< how many parallelograms, at most 3; 0 if one was picked
-  uint32_t source = 0;   ///< 0 within a polygon, 1 across an edge, 2 neither
-  int rank = 0;          ///< which component of its site it is, at most 2
-  int sign = 0;          ///< what speaks for a sign, below kSigns
+  int32_t estimate = 0;   ///< its size
+  int32_t near = 0;       ///< the errors of the same component at the neighbours
+  int32_t all = 0;        ///< the errors of all components there
+  int32_t so_far = 0;     ///< the errors of this site's components that are known
+  int32_t spread = 0;     ///< how much the predictions of the component disagree
+  int32_t widest = 0;     ///< the largest spread of all components
+  int32_t apart = 0;      ///< how far the second-best prediction is from the best
+  uint32_t members = 0;   ///< how many parallelograms, at most 3; 0 if one was picked
+  uint32_t source = 0;    ///< 0 within a polygon, 1 across an edge, 2 neither
+  uint32_t fraction = 0;  ///< the last four digits of the prediction
+  int rank = 0;           ///< which component of its site it is, at most 2
+  int sign = 0;           ///< what speaks for a sign, below kSigns
 
   /// Of the estimate, four steps per doubling, below 64.
   int level() const { return std::min(quarterLog(half(estimate)), 63); }

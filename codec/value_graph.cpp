@@ -38,33 +38,36 @@ class Partition {
 }  // namespace
 
 ValueGraph::ValueGraph(const Connectivity& mesh, Index site_count)
-    : sites_(mesh.umbrellas), twins_(mesh.twins), starts_(size_t{site_count} + 1, 0) {
-  listShapes(mesh.face_degrees);
-  listCorners();
+    : site_count_(site_count), sites_(mesh.umbrellas), twins_(mesh.twins) {
+  listShapes(mesh.face_degrees) ? findFirsts() : listFans();
 }
 
 ValueGraph::ValueGraph(const Connectivity& mesh, std::vector<Index> sites, Index site_count)
-    : own_sites_(std::move(sites)), sites_(own_sites_), twins_(mesh.twins), starts_(size_t{site_count} + 1, 0) {
+    : site_count_(site_count), own_sites_(std::move(sites)), sites_(own_sites_), twins_(mesh.twins) {
   listShapes(mesh.face_degrees);
   dropSeamTwins();
-  listCorners();
+  listFans();
 }
 
-void ValueGraph::listShapes(std::span<const Index> face_degrees) {
+// False when there are faces round which there is no way.
+bool ValueGraph::listShapes(std::span<const Index> face_degrees) {
   constexpr Index kMostStep = 2047;
-  if (std::ranges::all_of(face_degrees, [](Index degree) { return degree == 3; })) return;
+  if (std::ranges::all_of(face_degrees, [](Index degree) { return degree == 3; })) return true;
   const auto shapeOf = [](Index back, Index forth, Index degree) {
     return back << 20 | (forth & 0xFFF) << 8 | std::min(degree, AnyFaces::kMostDegree);
   };
   shapes_.resize(sites_.size());
   uint32_t* shape = shapes_.data();
+  bool all_round = true;
   for (const Index degree : face_degrees) {
     if (degree == 0) continue;
+    all_round &= degree - 1 <= kMostStep;
     const Index wrap = degree - 1 <= kMostStep ? degree - 1 : 0, step = degree > 1;
     *shape++ = shapeOf(wrap, step, degree);
     for (Index i = 2; i < degree; ++i) *shape++ = shapeOf(~0u, 1, degree);
     if (degree > 1) *shape++ = shapeOf(~0u, 0u - wrap, degree);
   }
+  return all_round;
 }
 
 void ValueGraph::dropSeamTwins() {
@@ -79,17 +82,54 @@ void ValueGraph::dropSeamTwins() {
   }
 }
 
-// Sorts the corners by their sites: counts, then fills from behind.
-void ValueGraph::listCorners() {
+// An umbrella is one fan.
+void ValueGraph::findFirsts() {
+  starts_.assign(site_count_, kNone);
   const auto counts = [&](Index corner) { return shapes_.empty() || degree(corner) >= 3; };
-  Index* const starts = starts_.data();
-  for (Index c = 0; c < cornerCount(); ++c) starts[sites_[c]] += counts(c);
-  Index sum = 0;
-  for (Index& start : starts_) start = sum += start;
-  corners_ = std::make_unique_for_overwrite<Index[]>(sum);
   for (Index c = cornerCount(); c-- > 0;) {
-    if (counts(c)) corners_[--starts[sites_[c]]] = c;
+    if (counts(c)) starts_[sites_[c]] = c;
   }
+  for (Index c = 0; c < cornerCount(); ++c) {
+    if (twins_[c] == kNone && counts(c)) starts_[sites_[c]] = c;
+  }
+}
+
+// Fan by fan. Of inconsistent twins, too, nothing is listed twice.
+void ValueGraph::listFans() {
+  const auto counts = [&](Index corner) { return shapes_.empty() || degree(corner) >= 3; };
+  starts_.assign(size_t{site_count_} + 1, 0);
+  for (Index c = 0; c < cornerCount(); ++c) starts_[sites_[c]] += counts(c);
+  Index sum = 0;
+  for (Index& start : starts_) sum += std::exchange(start, sum);
+  fans_.resize(std::max(sum, 1u));
+  std::vector<Index> ends(starts_.begin(), starts_.end());
+  std::vector<bool> listed(cornerCount());
+  const auto list = [&](Index first) {
+    const Index site = sites_[first];
+    for (Index corner = first; corner != kNone && !listed[corner] && sites_[corner] == site && counts(corner);
+         corner = twins_[prev(corner)]) {
+      listed[corner] = true;
+      fans_[ends[site]++] = corner;
+    }
+    fans_[ends[site] - 1] |= kLast;
+  };
+  for (Index c = 0; c < cornerCount(); ++c) {
+    if (twins_[c] == kNone && counts(c) && !listed[c]) list(c);
+  }
+  for (Index c = 0; c < cornerCount(); ++c) {
+    if (counts(c) && !listed[c]) list(c);
+  }
+}
+
+CornerList ValueGraph::corners(Index site) const {
+  CornerList list;
+  withFaces([&](const auto& faces) {
+    forFans(faces, site, [&](std::span<const Index> fan, bool) {
+      std::ranges::copy(fan, list.corners.begin() + list.count);
+      list.count += static_cast<Index>(fan.size());
+    });
+  });
+  return list;
 }
 
 WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,

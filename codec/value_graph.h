@@ -3,7 +3,7 @@
 // seams, the corners of a vertex between two seams.
 
 #include <algorithm>
-#include <memory>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -36,8 +36,19 @@ struct AnyFaces {
   Index prev(Index corner) const { return corner + static_cast<Index>(static_cast<int32_t>(shapes[corner]) >> 20); }
 };
 
-/// The sites of one attribute over a mesh, as predictors see them. 4 bytes per corner and per site, and 4 more per
-/// corner each: where not all faces are triangles, where the sites are not the umbrellas, and where seams part faces.
+/// The corners of a site.
+struct CornerList {
+  static constexpr Index kMost = 60;
+
+  std::array<Index, kMost> corners;
+  Index count = 0;
+
+  const Index* begin() const { return corners.data(); }
+  const Index* end() const { return corners.data() + count; }
+};
+
+/// The sites of one attribute over a mesh, as predictors see them. 4 bytes per site, and 4 more per corner each: where
+/// not all faces are triangles, where seams part faces, and twice where the sites are not the umbrellas.
 ///
 /// In a face of more than 2048 corners, the first one's predecessor and the last one's successor are these themselves.
 class ValueGraph {
@@ -49,7 +60,7 @@ class ValueGraph {
   ValueGraph(const Connectivity& mesh, std::vector<Index> sites, Index site_count);
   ValueGraph(ValueGraph&&) = default;
 
-  Index siteCount() const { return static_cast<Index>(starts_.size() - 1); }
+  Index siteCount() const { return site_count_; }
   Index cornerCount() const { return static_cast<Index>(sites_.size()); }
 
   Index site(Index corner) const { return sites_[corner]; }
@@ -66,25 +77,53 @@ class ValueGraph {
     return shapes_.empty() ? visit(TriangleFaces{}) : visit(any());
   }
 
-  /// The first 64 corners of a site, ascending; those of faces of degree below 3 do not count.
-  std::span<const Index> corners(Index site) const {
-    const Index begin = starts_[site], count = starts_[site + 1] - begin;
-    return {corners_.get() + begin, std::min(count, kMostCorners)};
+  /// Calls visit(corners, closed) for each fan of a site: corners that share edges, each with the one before it the
+  /// edge to its own `next`; in a closed fan, the first with the last, too. An open fan begins where an edge has no
+  /// twin, a closed one with its lowest corner; open fans come first. At most 60 corners in all; those of faces of
+  /// degree below 3 do not count. A fan that is cut short is not closed.
+  template <class Faces, class Visit>
+  [[gnu::always_inline]] void forFans(const Faces& faces, Index site, Visit visit) const {
+    if (!fans_.empty()) return forListedFans(faces, site, visit);
+    const Index first = starts_[site];
+    if (first == kNone) return;
+    CornerList fan;
+    Index corner = first;
+    do {
+      fan.corners[fan.count++] = corner;
+      corner = twins_[faces.prev(corner)];
+    } while (corner != kNone && corner != first && fan.count < CornerList::kMost);
+    visit(std::span<const Index>(fan), corner == first);
   }
 
-  static constexpr Index kMostCorners = 64;
+  /// All of them.
+  CornerList corners(Index site) const;
 
  private:
+  static constexpr Index kLast = 1u << 31;  // marks the last corner of a fan
+
   AnyFaces any() const { return {shapes_.data()}; }
-  void listShapes(std::span<const Index> face_degrees);
-  void listCorners();
+  bool listShapes(std::span<const Index> face_degrees);
+  void findFirsts();
+  void listFans();
   void dropSeamTwins();
 
+  template <class Faces, class Visit>
+  void forListedFans(const Faces& faces, Index site, Visit visit) const {
+    CornerList fan;
+    for (Index at = starts_[site], rest = CornerList::kMost; at < starts_[site + 1] && rest > 0; ++at, --rest) {
+      const Index corner = fan.corners[fan.count++] = fans_[at] & ~kLast;
+      if (corner == fans_[at] && rest > 1) continue;
+      visit(std::span<const Index>(fan), twins_[faces.prev(corner)] == fan.corners[0]);
+      fan.count = 0;
+    }
+  }
+
+  Index site_count_;
   std::vector<Index> own_sites_, own_twins_;  // empty: the mesh's
   std::span<const Index> sites_, twins_;      // per corner
   std::vector<uint32_t> shapes_;              // per corner; empty: all triangles
-  std::vector<Index> starts_;                 // per site where its corners begin, and where all end
-  std::unique_ptr<Index[]> corners_;          // site by site
+  std::vector<Index> starts_;                 // per site where its fans begin in `fans_`, and where all end
+  std::vector<Index> fans_;  // site by site; empty: sites have one fan each, and `starts_` its first corner
 };
 
 /// The site of each wedge, numbered by the smallest wedge.

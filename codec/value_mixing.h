@@ -1,5 +1,5 @@
 #pragma once
-// Adaptive coding of residuals digit by digit, every decision mixed from five contexts. Small, not fast.
+// Adaptive coding of residuals digit by digit, every decision mixed from eight contexts. Small, not fast.
 
 #include <algorithm>
 #include <array>
@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "codec/mixer.h"
 #include "codec/value_expectation.h"
 #include "codec/value_model.h"
 
@@ -15,94 +16,120 @@ namespace tutte::values {
 /// Codes residuals by their bit length (a walk up or down from the expected one, by mixed contexts), sign and digits.
 class MixingCoder {
  public:
-  static constexpr int kInputs = 5;
-
-  MixingCoder() {
-    for (int i = 0; i < kInputs; ++i) tables_[i].assign(size_t{kLines[i]} * kBins, Chance());
-    mixers_.fill(Mixer<kInputs>());
-    signs_.fill(Chance());
-    digits_.fill(Chance());
-    seconds_.fill(Chance());
+  MixingCoder() : lines_(kStarts[kInputs]) {
+    Weights<kInputs> initial;
+    initial.weight.fill(kInitialWeight);
+    weights_.fill(initial);
   }
 
   template <class Port>
-  [[gnu::noinline]] int64_t code(Port& port, const Expectation& about, int64_t residual) {
+  int64_t code(Port& port, const Expectation& about, int64_t residual) {
     const auto magnitude = static_cast<uint64_t>(residual < 0 ? -residual : residual);
     const int expected = std::min(bitLength(static_cast<uint32_t>(about.estimate * 3 >> 6)), kLongest);
     const int length = codeLength(port, about, expected, static_cast<int>(std::bit_width(magnitude)));
+    last_[static_cast<size_t>(about.rank)] = static_cast<uint32_t>(std::min(length, 15));
     if (length == 0) return 0;
     Chance& sign = signs_[static_cast<size_t>((about.sign * 3 + about.rank) * 3 + std::min(length, 3) - 1)];
     const bool negative = sign.code(port, residual < 0);
-    const auto decoded = static_cast<int64_t>(
-        codeDigits(port, about.rank * 8 + std::clamp(length - expected, -3, 4) + 3, length, magnitude));
+    const int digits = about.rank * 8 + std::clamp(length - expected, -3, 4) + 3;
+    const auto decoded = static_cast<int64_t>(codeDigits(port, digits, length, magnitude));
     return negative ? -decoded : decoded;
   }
 
  private:
-  // How many contexts each input has.
-  static constexpr std::array<uint32_t, kInputs> kLines = {64 * 3 * 4, 15 * 4 * 19, 12 * 16 * 19, 3 * 4 * 19 * 32,
-                                                           32 * 19 * 3};
+  static constexpr int kInputs = 8;
   static constexpr int kLongest = 18;  // of expected lengths
-  static constexpr int kBins = 19;     // "longer than expected?", ten steps up, eight steps down
-  static constexpr int kUp = 1, kDown = 11;
+  static constexpr uint32_t kLengths = kLongest + 1;
+  static constexpr int kBins = 16;  // "longer than expected?", eight steps up, seven steps down
+  static constexpr int kUp = 1, kDown = 9;
   static constexpr int kLongestResidual = 30;
+  static constexpr int16_t kInitialWeight = 16384 * 21 / 100;
 
-  static std::array<uint32_t, kInputs> contextsOf(const Expectation& about, uint32_t e) {
+  // Where the lines of each context begin.
+  static constexpr std::array<uint32_t, kInputs + 1> kStarts = [] {
+    constexpr std::array<uint32_t, kInputs> kCounts = {
+        64 * 3 * 4,        15 * 4 * kLengths, 12 * 16 * kLengths, 3 * 4 * 16 * kLengths,
+        16 * 3 * kLengths, 16 * 3 * kLengths, 16 * 4 * kLengths,  16 * 3 * kLengths};
+    std::array<uint32_t, kInputs + 1> starts{};
+    for (size_t i = 0; i < kInputs; ++i) starts[i + 1] = starts[i] + kCounts[i];
+    return starts;
+  }();
+
+  using Line = std::array<Slot, kBins>;
+
+  std::array<Line*, kInputs> linesOf(const Expectation& about, int expected) {
     const int level = about.level();
-    const auto rank = static_cast<uint32_t>(about.rank);
-    const auto log = [](uint32_t x) { return static_cast<uint32_t>(std::min(quarterLog(x) / 2, 31)); };
-    return {(static_cast<uint32_t>(level) * 3 + rank) * 4 + about.members,
-            (about.relative(about.spread, level, -7, 7) * 4 + about.members) * 19 + e,
-            (about.relative(about.near, level, -5, 6) * 16 + about.relative(about.widest, level, -7, 8)) * 19 + e,
-            ((about.source * 4 + about.members) * 19 + e) * 32 + log(Expectation::half(about.all)),
-            (log(static_cast<uint32_t>(about.so_far)) * 19 + e) * 3 + rank};
+    const auto rank = static_cast<uint32_t>(about.rank), e = static_cast<uint32_t>(expected);
+    const std::array<uint32_t, kInputs> contexts = {
+        (static_cast<uint32_t>(level) * 3 + rank) * 4 + about.members,
+        (about.relative(about.spread, level, -7, 7) * 4 + about.members) * kLengths + e,
+        (about.relative(about.near, level, -5, 6) * 16 + about.relative(about.widest, level, -7, 8)) * kLengths + e,
+        ((about.source * 4 + about.members) * 16 + about.relative(about.all, level, -7, 8)) * kLengths + e,
+        (about.relative(about.so_far, level, -7, 8) * 3 + rank) * kLengths + e,
+        (about.relative(about.apart, level, -7, 8) * 3 + rank) * kLengths + e,
+        (about.fraction * 4 + about.members) * kLengths + e,
+        (last_[rank] * 3 + rank) * kLengths + e};
+    std::array<Line*, kInputs> lines;
+    for (size_t i = 0; i < kInputs; ++i) lines[i] = &lines_[kStarts[i] + contexts[i]];
+    return lines;
   }
 
   template <class Port>
   int codeLength(Port& port, const Expectation& about, int expected, int length) {
-    const std::array<uint32_t, kInputs> contexts = contextsOf(about, static_cast<uint32_t>(expected));
-    std::array<Chance*, kInputs> lines;
-    for (int i = 0; i < kInputs; ++i) lines[i] = tables_[i].data() + size_t{contexts[i]} * kBins;
-    Mixer<kInputs>* const mixers = &mixers_[static_cast<size_t>(about.rank) * kBins];
-    const auto decide = [&](int bin, bool value) {
-      std::array<Chance*, kInputs> chances;
-      for (int i = 0; i < kInputs; ++i) chances[i] = lines[i] + bin;
-      return mixers[bin].code(port, chances, value);
-    };
+    const std::array<Line*, kInputs> lines = linesOf(about, expected);
     int at = expected;
-    if (decide(0, length > at)) {
+    if (decide(port, lines, about.rank, 0, length > at)) {
       for (int bin = kUp; ++at < kLongestResidual; bin += bin < kDown - 1) {
-        if (!decide(bin, length > at)) break;
+        if (!decide(port, lines, about.rank, bin, length > at)) break;
       }
     } else {
       for (int bin = kDown; at > 0; --at, bin += bin < kBins - 1) {
-        if (!decide(bin, length < at)) break;
+        if (!decide(port, lines, about.rank, bin, length < at)) break;
       }
     }
     return at;
   }
 
+  template <class Port>
+  bool decide(Port& port, const std::array<Line*, kInputs>& lines, int rank, int bin, bool value) {
+    const int kind = rank * kBins + bin;
+    SlotGroup slots({(*lines[0])[bin].word(), (*lines[1])[bin].word(), (*lines[2])[bin].word(), (*lines[3])[bin].word(),
+                     (*lines[4])[bin].word(), (*lines[5])[bin].word(), (*lines[6])[bin].word(),
+                     (*lines[7])[bin].word()});
+    const Inputs<kInputs> inputs{slots.stretched()};
+    Weights<kInputs>& weights = weights_[static_cast<size_t>(kind)];
+    const int32_t opinion = weights.mix(inputs);
+    const auto mixed = static_cast<int32_t>(squash(opinion));
+    const auto one = static_cast<uint32_t>(mixed);
+    const bool bit = port.code(std::clamp(one, 24u, 65512u), value);
+    rate_.advance();
+    weights.learn(inputs, rate_.step((bit << 16) - mixed));
+    slots.update(bit);
+    return bit;
+  }
+
   // The two digits below the leading one are adaptive, the others plain.
   template <class Port>
-  uint64_t codeDigits(Port& port, int context_index, int length, uint64_t magnitude) {
+  uint64_t codeDigits(Port& port, int context, int length, uint64_t magnitude) {
     uint64_t value = 1;
     int rest = length - 1;
     if (rest > 0) {
       --rest;
-      value = value << 1 | static_cast<uint64_t>(digits_[context_index].code(port, magnitude >> rest & 1));
+      value = value << 1 | static_cast<uint64_t>(digits_[context].code(port, magnitude >> rest & 1));
     }
     if (rest > 0) {
       --rest;
-      value = value << 1 |
-              static_cast<uint64_t>(seconds_[context_index * 2 + (value & 1)].code(port, magnitude >> rest & 1));
+      value = value << 1 | static_cast<uint64_t>(seconds_[context * 2 + (value & 1)].code(port, magnitude >> rest & 1));
     }
     if (rest == 0) return value;
     const uint64_t mask = (uint64_t{1} << rest) - 1;
     return value << rest | port.bits(rest, static_cast<uint32_t>(magnitude & mask));
   }
 
-  std::array<std::vector<Chance>, kInputs> tables_;
-  std::array<Mixer<kInputs>, 3 * kBins> mixers_;
+  std::vector<Line> lines_;
+  std::array<Weights<kInputs>, 3 * kBins> weights_;
+  LearningRate rate_;
+  std::array<uint32_t, 3> last_{};  // lengths, by rank
   std::array<Chance, kSigns * 3 * 3> signs_;
   std::array<Chance, 3 * 8> digits_;
   std::array<Chance, 3 * 8 * 2> seconds_;

@@ -28,7 +28,7 @@ class Chance {
   }
 
   template <class Port>
-  bool code(Port& port, bool value) {
+  [[gnu::always_inline]] bool code(Port& port, bool value) {
     const bool bit = port.code(one16(), value);
     update(bit);
     return bit;

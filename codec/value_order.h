@@ -13,50 +13,31 @@
 
 namespace tutte {
 
-/// Sites that have become more urgent, and by how much, after one site has become known. Whether a site is known is
-/// hard to foresee, so nothing is decided while the list is made: it grows by 0 or 1.
+/// Sites that have become more urgent, and by how much, after one site has become known.
 class Urgencies {
  public:
   /// A site, and in the upper half by how much.
   using Entry = uint64_t;
 
-  // For each corner of the site: a and b are the sites beside it in its face, c and d the next ones on their sides; in
-  // a quad, c is opposite.
-  void addTriangle(Index a, bool know_a, Index b, bool know_b) {
-    add(a, Entry{know_b} * 2, !know_a);
-    add(b, Entry{know_a} * 2, !know_b);
-  }
-
-  void addQuad(Index a, bool know_a, Index b, bool know_b, Index c, bool know_c) {
-    const int others = know_a + know_b + know_c;
-    const Entry amount = others == 2 ? 16 : others == 1 ? 2 : 0;
-    add(a, amount, !know_a);
-    add(b, amount, !know_b);
-    add(c, amount, !know_c & (others == 2));
-  }
-
-  void addPolygon(Index a, bool know_a, Index b, bool know_b, bool know_c, bool know_d) {
-    add(a, know_c ? 8 : know_b ? 2 : 0, !know_a);
-    add(b, know_d ? 8 : know_a ? 2 : 0, !know_b);
-  }
-
-  void clear() { count_ = 0; }
-  std::span<const Entry> entries() const { return {entries_.data(), static_cast<size_t>(count_)}; }
-
- private:
-  void add(Index site, Entry amount, bool really) {
-    entries_[count_] = amount << 32 | site;
+  /// Whether a site is known is hard to foresee, so nothing is decided here: the list grows by 0 or 1.
+  void add(Index site, Index amount, bool really) {
+    entries_[count_] = Entry{amount} << 32 | site;
     count_ += really;
   }
 
-  std::array<Entry, 3 * ValueGraph::kMostCorners + 1> entries_;
-  int count_ = 0;
+  void clear() { count_ = 0; }
+  std::span<const Entry> entries() const { return {entries_.data(), count_}; }
+
+ private:
+  // Of each corner two sites beside it, and one that is opposite.
+  std::array<Entry, 3 * CornerList::kMost + 1> entries_;
+  size_t count_ = 0;
 };
 
 /// Always one of the sites with the most known surroundings is next, so that most values are predicted by several
 /// parallelograms. A function of the graph alone. O(corners) in all.
 ///
-/// Per site: urge() with the Urgencies of all its corners in faces of degree above 2, then learn().
+/// Per site: urge(), then learn().
 class SiteOrder {
  public:
   explicit SiteOrder(Index sites)

@@ -112,15 +112,12 @@ class ValueReader {
  public:
   static constexpr bool kWriting = false;
 
-  ValueReader(std::span<const uint8_t> decisions, std::span<const uint8_t> plain) : bytes_(decisions), plain_(plain) {
-    window_ = uint64_t{word(bytes_, next_)} << 32;
-    window_ |= word(bytes_, next_ + 4);
-    next_ += 8;
-  }
+  ValueReader(std::span<const uint8_t> decisions, std::span<const uint8_t> plain)
+      : decisions_(decisions), plain_(plain), number_(static_cast<uint32_t>(decisions_.bigWord(0) >> 48)) {}
 
   bool code(uint32_t one, bool = false) {
     const uint32_t split = range_ * one >> 16;
-    const bool value = position() < split;
+    const bool value = number_ < split;
     take(value ? 0 : split, value ? split : range_ - split);
     return value;
   }
@@ -128,71 +125,61 @@ class ValueReader {
   int symbol(const values::Distribution& distribution, int = 0) {
     values::Thresholds parts;
     divide(distribution, range_, parts);
-    const int value = find(parts, position());
+    const int value = find(parts, number_);
     take(parts.at(value + 1), parts.at(value) - parts.at(value + 1));
     return value;
   }
 
   uint32_t bits(int count, uint32_t = 0) {
-    if (pending_count_ < count) {
-      pending_ |= uint64_t{littleWord()} << pending_count_;
-      pending_count_ += 32;
-    }
-    const auto value = static_cast<uint32_t>(pending_ & ((uint64_t{1} << count) - 1));
-    pending_ >>= count;
-    pending_count_ -= count;
-    return value;
+    const uint64_t word = plain_.littleWord(plain_taken_ >> 3) >> (plain_taken_ & 7);
+    plain_taken_ += static_cast<size_t>(count);
+    return static_cast<uint32_t>(word & ((uint64_t{1} << count) - 1));
   }
 
   /// True once more was read than any writer leaves out: the bytes are damaged. To be asked now and then.
-  bool overrun() const { return taken() > 8 * bytes_.size() + 64 || plainTaken() > 8 * plain_.size(); }
+  bool overrun() const { return taken_ > 8 * decisions_.size() + 64 || plain_taken_ > 8 * plain_.size(); }
 
   /// True when bytes are left that no writer would have written.
-  bool trailing() const { return 8 * bytes_.size() > taken() + 7 || 8 * plain_.size() > plainTaken() + 7; }
+  bool trailing() const { return 8 * decisions_.size() > taken_ + 7 || 8 * plain_.size() > plain_taken_ + 7; }
 
  private:
-  uint32_t position() const { return static_cast<uint32_t>(window_ >> 48); }
-
+  // The next bits are looked up every time: when to renew a buffer of them could not be foreseen.
   void take(uint32_t start, uint32_t size) {
-    window_ -= uint64_t{start} << 48;
+    const uint64_t next = decisions_.bigWord(taken_ >> 3) << (taken_ & 7);
     const int shift = std::countl_zero(size) - 16;
     range_ = size << shift;
-    window_ <<= shift;
-    spare_ -= shift;
-    if (spare_ < 16) {
-      window_ |= uint64_t{word(bytes_, next_)} << (16 - spare_);
-      next_ += 4;
-      spare_ += 32;
+    number_ = (number_ - start) << shift | static_cast<uint32_t>(next >> 1 >> (63 - shift));
+    taken_ += static_cast<size_t>(shift);
+  }
+
+  // A copy with zeros behind its end, so that eight bytes can be read anywhere.
+  class Bytes {
+   public:
+    explicit Bytes(std::span<const uint8_t> bytes) : padded_(bytes.size() + 8) {
+      std::ranges::copy(bytes, padded_.begin());
     }
-  }
 
-  // Bits that the range has seen, and those that have been handed out.
-  size_t taken() const { return 8 * next_ - static_cast<size_t>(spare_); }
-  size_t plainTaken() const { return 8 * plain_next_ - static_cast<size_t>(pending_count_); }
-
-  static uint32_t word(std::span<const uint8_t> bytes, size_t at) {
-    uint32_t value = 0;
-    if (at + 4 <= bytes.size()) {
-      for (size_t i = 0; i < 4; ++i) value = value << 8 | bytes[at + i];
-    } else {
-      for (size_t i = 0; i < 4; ++i) value = value << 8 | (at + i < bytes.size() ? bytes[at + i] : 0u);
+    size_t size() const { return padded_.size() - 8; }
+    uint64_t bigWord(size_t at) const {
+      const uint8_t* const from = &padded_[std::min(at, size())];
+      uint64_t word = 0;
+      for (int i = 0; i < 8; ++i) word |= uint64_t{from[i]} << (56 - 8 * i);
+      return word;
     }
-    return value;
-  }
+    uint64_t littleWord(size_t at) const {
+      const uint8_t* const from = &padded_[std::min(at, size())];
+      uint64_t word = 0;
+      for (int i = 0; i < 8; ++i) word |= uint64_t{from[i]} << (8 * i);
+      return word;
+    }
 
-  uint32_t littleWord() {
-    const uint32_t value = word(plain_, plain_next_);
-    plain_next_ += 4;
-    return value >> 24 | (value >> 8 & 0xFF00) | (value << 8 & 0xFF0000) | value << 24;
-  }
+   private:
+    std::vector<uint8_t> padded_;
+  };
 
-  std::span<const uint8_t> bytes_, plain_;
-  size_t next_ = 0, plain_next_ = 0;
-  uint64_t window_ = 0;
-  uint32_t range_ = 65535;
-  int spare_ = 48;  // bits of the window below the upper 16
-  uint64_t pending_ = 0;
-  int pending_count_ = 0;
+  Bytes decisions_, plain_;
+  uint32_t range_ = 65535, number_;
+  size_t taken_ = 16, plain_taken_ = 0;  // in bits; of the decisions, those that `number_` has seen
 };
 
 }  // namespace tutte

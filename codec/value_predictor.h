@@ -242,8 +242,11 @@ class SitePredictor {
     about.members = members_context_;
     about.source = parallelograms() ? stencil_.source == Source::kWithin ? 0 : 1 : 2;
     about.rank = rank;
-    const int64_t side = C == 3 && bent_ ? normal_[i] : stencil_.lean[i] - prediction;
-    about.sign = static_cast<int>((prediction & 15) >> 1) * 3 + (side > 0) - (side < 0) + 1;
+    about.fraction = static_cast<uint32_t>(prediction & 15);
+    const T apart = stencil_.lean[i] - prediction;
+    about.apart = static_cast<int32_t>(std::min<T>(apart < 0 ? -apart : apart, kWidest));
+    const int64_t side = C == 3 && bent_ ? normal_[i] : apart;
+    about.sign = static_cast<int>(about.fraction >> 1) * 3 + (side > 0) - (side < 0) + 1;
     int32_t estimate = width() == 1 ? near
                        : rank == 0  ? (2 * all + near) / 3
                        : rank == 1  ? (all + near + 2 * so_far) >> 2

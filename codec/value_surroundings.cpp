@@ -25,97 +25,122 @@ void SurroundingsFinder::fill() {
 }
 
 template <class Faces>
-void SurroundingsFinder::find(const Faces& faces, Index site, Surroundings& found) {
+[[gnu::always_inline]] inline void SurroundingsFinder::find(const Faces& faces, Index site, Surroundings& found) {
   Lists& lists = *lists_;
   urgencies_.clear();
-  const std::span<const Index> corners = graph_.corners(site);
-  for (const Index corner : corners) visit(faces, corner);
+  graph_.forFans(faces, site, [&](std::span<const Index> fan, bool closed) { visitFan(faces, fan, closed); });
   if constexpr (!Faces::kAllTriangles) {
     const int inside = lists.scaled.size() + lists.within.size();
     if (inside == 1 || (inside == 0 && lists.across.size() < 2)) {
-      for (const Index corner : corners) lookFar(faces, corner);
+      for (const Index corner : graph_.corners(site)) lookFar(faces, corner);
     }
   }
   order_.urge(urgencies_.entries());
   order_.learn(site);
-  found = {site,
-           lists.neighbours.take(),
-           lists.scaled.take(),
-           lists.within.take(),
-           lists.across.take(),
-           lists.planes.take(),
-           lists.over.take(),
-           lists.straight.take(),
-           lists.edges.take()};
-}
-
-template <class Faces>
-[[gnu::always_inline]] inline void SurroundingsFinder::visit(const Faces& faces, Index corner) {
-  const Index next = faces.next(corner), prev = faces.prev(corner);
-  const Index a = graph_.site(next), b = graph_.site(prev), rank_a = order_.rank(a), rank_b = order_.rank(b);
-  const bool know_a = SiteOrder::isRank(rank_a), know_b = SiteOrder::isRank(rank_b);
-  lists_->neighbours.add(rank_a, know_a);
-  lists_->neighbours.add(rank_b, know_b & (graph_.twin(prev) == kNone));
-  if (want_edges_) addEdge(a, b);
-  const Index degree = faces.degree(corner);
-  if (degree == 3) {
-    visitTriangle(faces, next, rank_a, rank_b);
-    return urgencies_.addTriangle(a, know_a, b, know_b);
-  }
+  found.site = site;
+  found.neighbours = lists.neighbours.take();
+  found.across = lists.across.take();
+  if (want_edges_) found.edges = lists.edges.take();
   if constexpr (!Faces::kAllTriangles) {
-    if (want_edges_) addEdges(faces, corner);
-    if (degree != 4) return visitPolygon(faces, corner);
-    const Index c = graph_.site(faces.next(next)), rank_c = order_.rank(c);
-    const bool know_c = SiteOrder::isRank(rank_c);
-    lists_->within.add({rank_a, rank_b, rank_c, rank_c}, know_a & know_b & know_c);
-    urgencies_.addQuad(a, know_a, b, know_b, c, know_c);
+    found.scaled = lists.scaled.take();
+    found.within = lists.within.take();
+    found.planes = lists.planes.take();
+    found.over = lists.over.take();
+    found.straight = lists.straight.take();
   }
 }
 
-// The corners of the face beyond the edge from a to b, at both sides; in a triangle, these are one.
+// Faces and sides take turns: face i lies between the sides i and i + 1.
 template <class Faces>
-[[gnu::always_inline]] inline void SurroundingsFinder::visitTriangle(const Faces& faces, Index next, Index rank_a,
-                                                                     Index rank_b) {
-  const Index twin = graph_.twin(next), edge = twin == kNone ? 0 : twin;
-  const Index x = order_.rank(graph_.site(faces.prev(edge)));
+[[gnu::always_inline]] inline void SurroundingsFinder::visitFan(const Faces& faces, std::span<const Index> fan,
+                                                                bool closed) {
+  std::array<Side, kCorners + 1> sides;
+  const size_t count = fan.size();
+  auto& neighbours = lists_->neighbours;
+  Index* grown = neighbours.end;
+  const auto addSide = [&](size_t i, Index corner, bool counts) {
+    const Index site = graph_.site(corner), rank = order_.rank(site);
+    sides[i] = {site, rank, 0};
+    *grown = rank;
+    grown += SiteOrder::isRank(rank) & counts;
+  };
+  for (size_t i = 0; i < count; ++i) addSide(i, faces.next(fan[i]), true);
+  const Index end = faces.prev(fan[count - 1]);
+  addSide(count, end, graph_.twin(end) == kNone);
+  neighbours.end = grown;
+  for (size_t i = 0; i < count; ++i) {
+    Side &a = sides[i], &b = sides[i + 1];
+    const Index degree = faces.degree(fan[i]);
+    if (want_edges_) addEdges(faces, fan[i], a.site, b.site);
+    if (degree == 3) visitTriangle(faces, fan[i], a, b);
+    if constexpr (!Faces::kAllTriangles) {
+      if (degree == 4) visitQuad(faces, fan[i], a, b);
+      if (degree > 4) visitPolygon(faces, fan[i], a, b);
+    }
+  }
+  if (closed) sides[0].urgency += sides[count].urgency;
+  for (size_t i = count + !closed; i-- > 0;) urgencies_.add(sides[i].site, sides[i].urgency, !sides[i].known());
+}
+
+// Across the edge from a to b: the corners of the face beyond it at both sides, which are one in a triangle.
+template <class Faces>
+[[gnu::always_inline]] inline void SurroundingsFinder::visitTriangle(const Faces& faces, Index corner, Side& a,
+                                                                     Side& b) {
+  a.urgency += 2 * b.known();
+  b.urgency += 2 * a.known();
+  if (!(a.known() & b.known())) return;
+  const Index twin = graph_.twin(faces.next(corner));
+  if (twin == kNone) return;
+  const Index x = order_.rank(graph_.site(faces.prev(twin)));
   Index y = x;
   if constexpr (!Faces::kAllTriangles) {
-    if (faces.degree(edge) != 3) y = order_.rank(graph_.site(faces.next(faces.next(edge))));
+    if (faces.degree(twin) != 3) y = order_.rank(graph_.site(faces.next(faces.next(twin))));
   }
-  const bool known = SiteOrder::isRank(rank_a | rank_b | x | y);
-  lists_->across.add({rank_a, rank_b, x, y}, known & (twin != kNone));
+  lists_->across.add({a.rank, b.rank, x, y}, SiteOrder::isRank(x | y));
+}
+
+void SurroundingsFinder::visitQuad(const AnyFaces& faces, Index corner, Side& a, Side& b) {
+  const Index site = graph_.site(faces.next(faces.next(corner))), c = order_.rank(site);
+  const bool know_c = SiteOrder::isRank(c);
+  const int others = a.known() + b.known() + know_c;
+  const Index amount = others == 2 ? 16 : others == 1 ? 2 : 0;
+  a.urgency += amount;
+  b.urgency += amount;
+  urgencies_.add(site, amount, !know_c & (others == 2));
+  lists_->within.add({a.rank, b.rank, c, c}, others == 3);
 }
 
 // A regular polygon's diagonal over three sides is parallel to the middle one.
-void SurroundingsFinder::visitPolygon(const AnyFaces& faces, Index corner) {
-  const Index next = faces.next(corner), prev = faces.prev(corner);
-  const Index next2 = faces.next(next), prev2 = faces.prev(prev), degree = faces.degree(corner);
-  const Index a = graph_.site(next), b = graph_.site(prev);
-  const Index rank_a = order_.rank(a), rank_b = order_.rank(b);
-  const Index rank_c = order_.rank(graph_.site(next2)), rank_d = order_.rank(graph_.site(prev2));
-  const bool know_a = SiteOrder::isRank(rank_a), know_b = SiteOrder::isRank(rank_b);
-  const bool know_c = SiteOrder::isRank(rank_c), know_d = SiteOrder::isRank(rank_d);
-  urgencies_.addPolygon(a, know_a, b, know_b, know_c, know_d);
-  const PolygonRatio ratio = kPolygonRatio[std::min(degree, kLargestPolygon)];
+void SurroundingsFinder::visitPolygon(const AnyFaces& faces, Index corner, Side& a, Side& b) {
+  const Index next2 = faces.next(faces.next(corner)), prev2 = faces.prev(faces.prev(corner));
+  const Index c = order_.rank(graph_.site(next2)), d = order_.rank(graph_.site(prev2));
+  const bool know_a = a.known(), know_b = b.known(), know_c = SiteOrder::isRank(c), know_d = SiteOrder::isRank(d);
+  a.urgency += know_c ? 8 : know_b ? 2 : 0;
+  b.urgency += know_d ? 8 : know_a ? 2 : 0;
+  const PolygonRatio ratio = kPolygonRatio[std::min(faces.degree(corner), kLargestPolygon)];
   const auto k = static_cast<Index>(ratio.k), inverse = static_cast<Index>(ratio.inverse);
   auto& scaled = lists_->scaled;
   if (know_a && know_b) {
-    scaled.add({rank_b, rank_a, rank_d, inverse}, know_d);
-    scaled.add({rank_a, rank_b, rank_c, inverse}, know_c);
-    lists_->planes.add({rank_b, rank_a, rank_c, 0}, know_c);
+    scaled.add({b.rank, a.rank, d, inverse}, know_d);
+    scaled.add({a.rank, b.rank, c, inverse}, know_c);
+    lists_->planes.add({b.rank, a.rank, c, 0}, know_c);
   } else if (know_b && know_d) {
     const Index e = order_.rank(graph_.site(faces.prev(prev2)));
-    scaled.add({e, rank_b, rank_d, k}, SiteOrder::isRank(e));
+    scaled.add({e, b.rank, d, k}, SiteOrder::isRank(e));
   } else if (know_a && know_c) {
     const Index e = order_.rank(graph_.site(faces.next(next2)));
-    scaled.add({e, rank_a, rank_c, k}, SiteOrder::isRank(e));
+    scaled.add({e, a.rank, c, k}, SiteOrder::isRank(e));
   }
 }
 
-void SurroundingsFinder::addEdges(const AnyFaces& faces, Index corner) {
-  const Index next = faces.next(corner), prev = faces.prev(corner);
-  addEdge(graph_.site(next), graph_.site(faces.next(next)));
-  addEdge(graph_.site(faces.prev(prev)), graph_.site(prev));
+template <class Faces>
+[[gnu::always_inline]] inline void SurroundingsFinder::addEdges(const Faces& faces, Index corner, Index a, Index b) {
+  addEdge(a, b);
+  if constexpr (!Faces::kAllTriangles) {
+    if (faces.degree(corner) == 3) return;
+    addEdge(a, graph_.site(faces.next(faces.next(corner))));
+    addEdge(graph_.site(faces.prev(faces.prev(corner))), b);
+  }
 }
 
 // Over the edges that are opposite or beside; weaker than what is within.

@@ -69,7 +69,14 @@ class SurroundingsFinder {
     }
   };
 
-  static constexpr int kCorners = ValueGraph::kMostCorners;
+  /// A site beside the one whose turn it is, and how much more urgent it becomes.
+  struct Side {
+    Index site, rank, urgency;
+
+    bool known() const { return SiteOrder::isRank(rank); }
+  };
+
+  static constexpr int kCorners = CornerList::kMost;
   struct Lists {
     List<Index, 2 * kCorners> neighbours;
     List<Term, kCorners> within, across, planes;
@@ -82,11 +89,13 @@ class SurroundingsFinder {
   template <class Faces>
   void find(const Faces& faces, Index site, Surroundings& found);
   template <class Faces>
-  void visit(const Faces& faces, Index corner);
+  void visitFan(const Faces& faces, std::span<const Index> fan, bool closed);
   template <class Faces>
-  void visitTriangle(const Faces& faces, Index next, Index rank_a, Index rank_b);
-  void visitPolygon(const AnyFaces& faces, Index corner);
-  void addEdges(const AnyFaces& faces, Index corner);
+  void visitTriangle(const Faces& faces, Index corner, Side& a, Side& b);
+  void visitQuad(const AnyFaces& faces, Index corner, Side& a, Side& b);
+  void visitPolygon(const AnyFaces& faces, Index corner, Side& a, Side& b);
+  template <class Faces>
+  void addEdges(const Faces& faces, Index corner, Index a, Index b);
   void lookFar(const AnyFaces& faces, Index corner);
   void lookFar(Index a, Index c, Index beyond_a, Index beyond_c, Index degree);
 

@@ -143,9 +143,9 @@ Outcome<Stream> encodeStream(const AttributeTopology& topology, std::span<const 
                                  valueProfile(options.connectivity.profile, topology.connectivity.umbrellas.size()));
   if (!bytes) return bytes.error();
   Stream own{kValueCoder, *std::move(bytes)};
-  // Draco's coder wins on few meshes, which are small, and takes several times as long.
-  const bool both = topology.wedge_count <= 5000 || options.connectivity.effort >= 2;
-  if (options.attribute_coder == AttributeCoder::kTutte || !both) return own;
+  // Draco's coder wins next to never, and takes several times as long.
+  const bool both = options.attribute_coder == AttributeCoder::kAuto && options.connectivity.effort >= 2;
+  if (!both) return own;
   // What Draco cannot code at all is no reason to fail.
   auto draco = encodePlanes(topology, planes);
   if (draco && draco->size() < own.bytes.size()) return Stream{kDracoCoder, *std::move(draco)};

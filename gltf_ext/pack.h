@@ -15,7 +15,7 @@ namespace tutte {
 
 /// Who codes the attributes' numbers.
 enum class AttributeCoder : uint8_t {
-  kAuto,   ///< whichever takes fewer bytes
+  kAuto,   ///< whichever takes fewer bytes; below effort 2, kTutte, which Draco's next to never beats
   kDraco,  ///< Draco's predictors and entropy coder over our connectivity
   kTutte,  ///< the codec's own predictors, which know polygons, and adaptive coder (codec/values.h)
 };

@@ -11,6 +11,7 @@
 #include "gltf_ext/welding.h"
 #include "tools/cpu_clock.h"
 #include "tools/draco_baseline.h"
+#include "tools/heap_meter.h"
 #include "tools/paper_rates.h"
 #include "tools/payloads.h"
 
@@ -43,8 +44,10 @@ class OurCoder {
     const auto encoded =
         timed(figures_.connectivity_encode_seconds, [&] { return encode(polygons, options_.connectivity); });
     if (!encoded) return failureOf(encoded.error(), "connectivity");
+    const HeapMeter meter;
     const auto unpacked = timed(figures_.decode_seconds, [&] { return unpack(packed_.bytes); });
     if (!unpacked) return unpacked.error();
+    figures_.decode_peak_bytes = meter.peakBytes();
     const Result<PayloadView> view = parsePayload(packed_.bytes);
     const auto section = (*view)[Section::kConnectivity];
     const auto decoded = timed(figures_.connectivity_decode_seconds, [&] { return decode(section); });
@@ -108,6 +111,7 @@ CoderFigures figuresOf(const DracoFigures& draco) {
   figures.connectivity_encode_seconds = draco.connectivity_encode_seconds;
   figures.decode_seconds = draco.decode_seconds;
   figures.connectivity_decode_seconds = draco.connectivity_decode_seconds;
+  figures.decode_peak_bytes = draco.decode_peak_bytes;
   return figures;
 }
 

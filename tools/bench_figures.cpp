@@ -1,5 +1,7 @@
 #include "tools/bench_figures.h"
 
+#include <algorithm>
+
 namespace tutte {
 namespace {
 
@@ -22,6 +24,7 @@ CoderFigures& CoderFigures::operator+=(const CoderFigures& other) {
   connectivity_encode_seconds += other.connectivity_encode_seconds;
   decode_seconds += other.decode_seconds;
   connectivity_decode_seconds += other.connectivity_decode_seconds;
+  decode_peak_bytes = std::max(decode_peak_bytes, other.decode_peak_bytes);
   return *this;
 }
 

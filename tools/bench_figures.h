@@ -21,6 +21,7 @@ struct CoderFigures {
   double connectivity_encode_seconds = 0;
   double decode_seconds = 0;
   double connectivity_decode_seconds = 0;
+  uint64_t decode_peak_bytes = 0;  ///< of memory, the decoded mesh included; in sums the largest
 
   CoderFigures& operator+=(const CoderFigures& other);
 };

@@ -102,7 +102,8 @@ void printSpeedLine(const BenchFigures& f) {
     std::printf(" | %8s %8s", speed(f.ours.*member, f.draco_cl7, member).c_str(),
                 speed(f.ours.*member, f.draco_cl10, member).c_str());
   }
-  std::printf("\n");
+  std::printf(" | %9s %9s\n", withCommas(f.ours.decode_peak_bytes / 1024).c_str(),
+              f.draco_cl10 ? withCommas(f.draco_cl10->decode_peak_bytes / 1024).c_str() : "-");
 }
 
 void printSpeeds(const std::vector<BenchFigures>& rows, const BenchFigures& sum) {
@@ -110,7 +111,7 @@ void printSpeeds(const std::vector<BenchFigures>& rows, const BenchFigures& sum)
   for (const char* what : {"encode", "decode", "enc.conn", "dec.conn"}) std::printf(" | %8s %8s", what, "");
   std::printf("\n%-28s %9s %9s", "", "", "");
   for (int i = 0; i < 4; ++i) std::printf(" | %8s %8s", "by D7", "by D10");
-  std::printf("\n");
+  std::printf(" | %9s %9s\n", "dec. KiB", "D10 KiB");
   for (const BenchFigures& row : rows) printSpeedLine(row);
   if (rows.size() > 1) printSpeedLine(sum);
 }

@@ -25,7 +25,8 @@ Json jsonOf(const CoderFigures& figures) {
           {"encode_seconds", figures.encode_seconds},
           {"connectivity_encode_seconds", figures.connectivity_encode_seconds},
           {"decode_seconds", figures.decode_seconds},
-          {"connectivity_decode_seconds", figures.connectivity_decode_seconds}};
+          {"connectivity_decode_seconds", figures.connectivity_decode_seconds},
+          {"decode_peak_bytes", figures.decode_peak_bytes}};
 }
 
 Json jsonOf(const std::optional<CoderFigures>& figures) { return figures ? jsonOf(*figures) : Json(); }
@@ -145,7 +146,8 @@ constexpr const char* kNotes =
     "of these valence_bytes, degree_bytes, other_connectivity_bytes; bits_per_vertex (connectivity); seam_bytes;\n"
     "attribute_bytes (with seams); by_attribute {name: bytes}; total_bytes (payload, no JSON); glb_bytes (all);\n"
     "paper_bytes (connectivity there, or null); encode_seconds, decode_seconds, of these connectivity_encode_seconds,\n"
-    "connectivity_decode_seconds; profiles {name: {connectivity_bytes, valence_bytes, degree_bytes, encode_seconds,\n"
+    "connectivity_decode_seconds; decode_peak_bytes (memory from `new` while decoding, in sums the largest); profiles "
+    "{name: {connectivity_bytes, valence_bytes, degree_bytes, encode_seconds,\n"
     "decode_seconds}} (of the connectivity alone); draco_cl7, draco_cl10, draco_polygons {the same fields, with\n"
     "connectivity_bytes including seam_bytes} or null; draco_polygons_total_bytes; draco_refusal (why it is null).";
 

@@ -26,7 +26,9 @@ void addQuantization(CLI::App& command, PackOptions& options) {
   add("--qg", options.generic_bits, "other attributes");
   const std::map<std::string, AttributeCoder> coders{
       {"auto", AttributeCoder::kAuto}, {"draco", AttributeCoder::kDraco}, {"tutte", AttributeCoder::kTutte}};
-  command.add_option("--attribute-coder", options.attribute_coder, "who codes the attributes; auto keeps the smaller")
+  command
+      .add_option("--attribute-coder", options.attribute_coder,
+                  "who codes the attributes; auto keeps the smaller (effort 0 and 1: tutte, without trying)")
       ->transform(CLI::CheckedTransformer(coders))
       ->option_text("auto|draco|tutte")
       ->group("Quantisation");

@@ -9,6 +9,7 @@
 
 #include "tools/cpu_clock.h"
 #include "tools/draco_input.h"
+#include "tools/heap_meter.h"
 
 namespace tutte {
 namespace {
@@ -157,12 +158,14 @@ Outcome<Done> DracoBaseline::decode() {
   draco::DecoderBuffer buffer;
   buffer.Init(input_->buffer.data(), input_->buffer.size());
   WatchedDecoder decoder;
+  const HeapMeter meter;
   draco::Mesh mesh;
   const draco::DecoderOptions options;
   const Clock::time_point start = Clock::now();
   const draco::Status status = decoder.Decode(options, &buffer, &mesh);
   best(figures_.decode_seconds, Clock::secondsSince(start), runs_ == 0);
   best(figures_.connectivity_decode_seconds, decoder.connectivitySeconds(), runs_ == 0);
+  figures_.decode_peak_bytes = meter.peakBytes();
   if (!status.ok()) return refusal(status.error_msg_string());
   return Done{};
 }

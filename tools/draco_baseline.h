@@ -34,6 +34,7 @@ struct DracoFigures {
   double connectivity_encode_seconds = 0;  ///< of these, inside the connectivity step
   double decode_seconds = 0;
   double connectivity_decode_seconds = 0;
+  uint64_t decode_peak_bytes = 0;  ///< of memory, the decoded mesh included
 };
 
 /// Draco's edgebreaker on one mesh, as often as is asked for. Equal positions (and equal values of every attribute) are

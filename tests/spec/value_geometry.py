@@ -66,7 +66,7 @@ class Textures:
         graph, known = self.coder.graph, self.coder.order.known
         self.members, self.first = [], None
         here = given = 0
-        for corner in graph.around[site]:
+        for corner in graph.corners(site):
             n, p = graph.next[corner], graph.prev[corner]
             a, b, c, d = (graph.site[x] for x in (n, p, graph.next[n], graph.prev[p]))
             weighed = [a] * known[a] + [b] * (known[b] and graph.twin[p] is None)

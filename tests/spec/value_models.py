@@ -1,5 +1,5 @@
 """Streams and statistics of values: EXTENSION_SPEC.md, D.4.4, D.4.5 and D.4.8."""
-from models import clamp, require
+from models import Slot, clamp, require, squashed
 
 
 def bit_length(x):
@@ -211,23 +211,37 @@ class Classes:
 
 class Lengths:
     def __init__(self):
-        self.lines, self.mixed = [Chances() for _ in range(5)], MixedChance()
-        self.signs, self.digits = Chances(), Chances()
+        self.slots, self.weights, self.decisions, self.rate = [{} for _ in range(8)], {}, 0, 0
+        self.signs, self.digits, self.last = Chances(), Chances(), [0, 0, 0]
+
+    def decide(self, stream, rank, bin_, contexts):
+        slots = [self.slots[k].setdefault((c, bin_), Slot()) for k, c in enumerate(contexts)]
+        weights = self.weights.setdefault((rank, bin_), [3440] * 8)
+        inputs = [slot.stretched() for slot in slots]
+        opinion = squashed(clamp(sum(i * w for i, w in zip(inputs, weights)) >> 16, -2047, 2047))
+        bit = stream.bit(clamp(opinion, 24, 65512))
+        if self.decisions % 64 == 0:
+            self.rate = 200 + 6000000 // (4000 + self.decisions + 1)
+        self.decisions += 1
+        step = ((bit << 16) - opinion) * self.rate >> 13
+        for k, value in enumerate(inputs):
+            weights[k] = clamp(weights[k] + (value * step + 16384 >> 15), -32768, 32767)
+            slots[k].update(bit)
+        return bit
 
     def read(self, stream, expected, rank, contexts, sign):
-        def decide(bin_):
-            return self.mixed.read(stream, (rank, bin_), [self.lines[k][c, bin_] for k, c in enumerate(contexts)])
-
+        contexts = contexts + ((self.last[rank], rank, expected),)
         length = expected
-        if decide(0):
+        if self.decide(stream, rank, 0, contexts):
             length += 1
             step = 1
-            while length < 30 and decide(step):
-                length, step = length + 1, min(step + 1, 10)
+            while length < 30 and self.decide(stream, rank, step, contexts):
+                length, step = length + 1, min(step + 1, 8)
         else:
-            step = 11
-            while length > 0 and decide(step):
-                length, step = length - 1, min(step + 1, 18)
+            step = 9
+            while length > 0 and self.decide(stream, rank, step, contexts):
+                length, step = length - 1, min(step + 1, 15)
+        self.last[rank] = min(length, 15)
         if length == 0:
             return 0
         negative = self.signs[sign, min(length, 3)].read(stream)

@@ -239,6 +239,7 @@ TEST_F(Command, BenchHasEveryField) {
                             "encode_seconds",
                             "decode_seconds",
                             "connectivity_decode_seconds",
+                            "decode_peak_bytes",
                             "draco_cl7",
                             "draco_cl10",
                             "draco_polygons_total_bytes",
@@ -249,8 +250,9 @@ TEST_F(Command, BenchHasEveryField) {
     EXPECT_TRUE(json.contains(field)) << field;
   }
   for (const char* draco : {"draco_cl7", "draco_cl10"}) {
-    for (const char* field : {"connectivity_bytes", "attribute_bytes", "total_bytes", "encode_seconds",
-                              "decode_seconds", "connectivity_decode_seconds", "seam_bytes", "by_attribute"}) {
+    for (const char* field :
+         {"connectivity_bytes", "attribute_bytes", "total_bytes", "encode_seconds", "decode_seconds",
+          "connectivity_decode_seconds", "decode_peak_bytes", "seam_bytes", "by_attribute"}) {
       EXPECT_TRUE(json.at(draco).contains(field)) << field;
     }
   }

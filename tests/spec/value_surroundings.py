@@ -1,0 +1,123 @@
+"""What is known around a site: EXTENSION_SPEC.md, D.4.6."""
+from value_geometry import mean
+
+POINTS = 1
+WITHIN, ACROSS, FACE, STRAIGHT, AROUND, LAST = range(6)
+POLYGONS = {4: (4096, 4096), 5: (6627, 2531), 6: (8192, 2048), 7: (9204, 1823), 8: (9889, 1697), 9: (10371, 1618),
+            10: (10723, 1565), 11: (10988, 1527), 12: (11190, 1499), 13: (11350, 1478), 14: (11477, 1462),
+            15: (11580, 1449), 16: (11664, 1438)}
+
+
+# D.4.6 Surroundings
+
+class Surroundings:
+    def __init__(self, coder, site):
+        self.coder, self.m = coder, coder.m
+        graph, known, values = coder.graph, coder.order.known, coder.values
+        self.neighbours, self.normal = [], [0, 0, 0]
+        polygons, quads, triangles, normals = [], [], [], []
+        for corner in graph.corners(site):
+            n, p = graph.next[corner], graph.prev[corner]
+            a, b, c, d = (graph.site[x] for x in (n, p, graph.next[n], graph.prev[p]))
+            if known[a]:
+                self.neighbours.append(a)
+            if known[b] and graph.twin[p] is None:
+                self.neighbours.append(b)
+            degree = graph.degree[corner]
+            if degree == 3 and known[a] and known[b] and graph.twin[n] is not None:
+                twin = graph.twin[n]
+                x = graph.site[graph.prev[twin]]
+                y = x if graph.degree[twin] == 3 else graph.site[graph.next[graph.next[twin]]]
+                if known[x] and known[y]:
+                    triangles.append((graph.site[graph.next[twin]], graph.site[twin], x, y))
+            elif degree == 4 and known[a] and known[b] and known[c]:
+                quads.append((a, b, c, c))
+            elif degree > 4:
+                self.polygon(polygons, normals, degree, a, b, c, d, n, p)
+        self.source = WITHIN if polygons or quads else ACROSS if triangles else LAST
+        for a, b, x, y in quads + triangles:
+            normals.append((b, a, x))
+        chosen = quads if self.source == WITHIN else triangles
+        self.members = (polygons + [self.parallelogram(*f) for f in chosen])[:8]
+        if coder.kind == POINTS:
+            for origin, first, second in normals:
+                self.add_normal(values[origin], values[first], values[second])
+        self.settle(site)
+
+    def polygon(self, members, normals, degree, a, b, c, d, n, p):
+        graph, known = self.coder.graph, self.coder.order.known
+        k, inverse = POLYGONS[min(degree, 16)]
+        if known[a] and known[b]:
+            if known[d]:
+                self.scaled(members, b, a, d, inverse)
+            if known[c]:
+                self.scaled(members, a, b, c, inverse)
+                normals.append((b, a, c))
+        elif known[b] and known[d]:
+            e = graph.site[graph.prev[graph.prev[p]]]
+            if known[e]:
+                self.scaled(members, e, b, d, k)
+        elif known[a] and known[c]:
+            e = graph.site[graph.next[graph.next[n]]]
+            if known[e]:
+                self.scaled(members, e, a, c, k)
+
+    def scaled(self, members, at, to, origin, factor):
+        v = self.coder.values
+        members.append([16 * v[at][i] + ((v[to][i] - v[origin][i]) * factor >> 8) for i in range(self.m)])
+
+    def parallelogram(self, a, b, x, y):
+        v = self.coder.values
+        return [(2 * (v[a][i] + v[b][i]) - v[x][i] - v[y][i]) * 8 for i in range(self.m)]
+
+    def add_normal(self, origin, first, second):
+        u = [first[i] - origin[i] for i in range(3)]
+        w = [second[i] - origin[i] for i in range(3)]
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            self.normal[i] += u[j] * w[k] - u[k] * w[j]
+
+    def settle(self, site):
+        m, members = self.m, self.members
+        self.spread = [0] * m
+        if members:
+            self.base = [mean(sum(x[i] for x in members), len(members)) for i in range(m)]
+            self.lean = self.base
+        if len(members) > 1:
+            self.spread = [max(abs(x[i] - members[0][i]) for x in members) for i in range(m)]
+            return
+        offers, v = self.far(site), self.coder.values
+        if self.neighbours:
+            offers.append((AROUND, [mean(16 * sum(v[s][i] for s in self.neighbours), len(self.neighbours))
+                                    for i in range(m)]))
+        if not members:
+            self.source, self.base = offers.pop(0) if offers else (LAST, [16 * x for x in self.coder.last])
+            self.lean = self.base
+        if offers:
+            self.lean = offers[0][1]
+            self.spread = [abs(self.lean[i] - self.base[i]) for i in range(m)]
+
+    def far(self, site):
+        graph, known, v, across, straight = self.coder.graph, self.coder.order.known, self.coder.values, [], []
+
+        def look(a, c, degree, y, x):
+            if known[x] and known[c] and len(across) < 8:
+                across.append([(3 * v[a][i] + v[c][i] - 2 * v[x][i]) * 8 if degree == 3 else
+                               (v[a][i] + v[c][i] - v[x][i]) * 16 for i in range(self.m)])
+            if degree > 3 and known[y] and len(straight) < 8:
+                straight.append([(2 * v[a][i] - v[y][i]) * 16 for i in range(self.m)])
+
+        for corner in graph.corners(site):
+            if graph.degree[corner] <= 3:
+                continue
+            n, p = graph.next[corner], graph.prev[corner]
+            q = graph.prev[p]
+            a, b, t, u = graph.site[n], graph.site[p], graph.twin[n], graph.twin[q]
+            if known[a] and t is not None:
+                look(a, graph.site[graph.next[n]], graph.degree[t], graph.site[graph.next[graph.next[t]]],
+                     graph.site[graph.prev[t]])
+            if known[b] and u is not None:
+                look(b, graph.site[q], graph.degree[u], graph.site[graph.prev[u]],
+                     graph.site[graph.next[graph.next[u]]])
+        return [(source, [mean(sum(x[i] for x in found), len(found)) for i in range(self.m)])
+                for source, found in ((FACE, across), (STRAIGHT, straight)) if found]
