@@ -16,19 +16,10 @@ Error decodeConnectivity(const PayloadView& payload, PayloadMesh& mesh) {
       decode(payload[Section::kConnectivity], {counts.points(), counts.faces, counts.corners});
   if (!connectivity) return connectivity.error();
   mesh.connectivity = *std::move(connectivity);
-  mesh.polygons = polygonsOf(mesh.connectivity, &mesh.coded_corners);
-  const bool as_claimed = mesh.polygons.vertex_count == counts.points() &&
-                          mesh.polygons.face_degrees.size() == counts.faces &&
-                          mesh.polygons.corners.size() == counts.corners;
+  const bool as_claimed = mesh.connectivity.vertex_count == counts.points() &&
+                          mesh.connectivity.face_degrees.size() == counts.faces &&
+                          mesh.connectivity.umbrellas.size() == counts.corners;
   return as_claimed ? Error::kNone : Error::kCountMismatch;
-}
-
-/// Values per coded corner, by corner of the mesh.
-std::vector<Index> inMeshOrder(const std::vector<Index>& values, const std::vector<Index>& coded_corners) {
-  std::vector<Index> result;
-  result.reserve(coded_corners.size());
-  for (const Index corner : coded_corners) result.push_back(values[corner]);
-  return result;
 }
 
 Error decodeWedges(const PayloadView& payload, PayloadMesh& mesh) {
@@ -42,11 +33,6 @@ Error decodeWedges(const PayloadView& payload, PayloadMesh& mesh) {
   mesh.seams = *std::move(seams);
   if (mesh.seams.wedge_count != counts.wedges || mesh.seams.vertex_count != counts.vertices) {
     return Error::kCountMismatch;
-  }
-  mesh.wedges = inMeshOrder(mesh.seams.wedges, mesh.coded_corners);
-  if (counts.welded > 0) {
-    mesh.polygons.corners = inMeshOrder(mesh.seams.vertices, mesh.coded_corners);
-    mesh.polygons.vertex_count = counts.vertices;
   }
   return Error::kNone;
 }
@@ -68,16 +54,33 @@ Error decodeRingOwners(const PayloadView& payload, PayloadMesh& mesh) {
   return Error::kNone;
 }
 
+// The fans of all polygons, which go without saying, are made when the polygons are.
 Error decodeTriangles(const PayloadView& payload, PayloadMesh& mesh) {
-  if (!payload.has(Section::kTriangulation)) {
-    mesh.triangulation = fanTriangulation(mesh.polygons, mesh.ring_owners);
-  } else {
-    Result<Triangulation> triangles = decodeTriangulation(mesh.connectivity, mesh.ring_owners,
-                                                          payload[Section::kTriangulation], payload.counts.triangles);
-    if (!triangles) return triangles.error();
-    mesh.triangulation = *std::move(triangles);
-  }
-  const bool as_claimed = mesh.triangulation.corners.size() == uint64_t{3} * payload.counts.triangles;
+  if (!payload.has(Section::kTriangulation)) return Error::kNone;
+  Result<Triangulation> triangles = decodeTriangulation(mesh.connectivity, mesh.ring_owners,
+                                                        payload[Section::kTriangulation], payload.counts.triangles);
+  if (!triangles) return triangles.error();
+  mesh.triangulation = *std::move(triangles);
+  return Error::kNone;
+}
+
+/// Values per coded corner, by corner of the mesh.
+std::vector<Index> inMeshOrder(const std::vector<Index>& values, const std::vector<Index>& coded_corners) {
+  std::vector<Index> result;
+  result.reserve(coded_corners.size());
+  for (const Index corner : coded_corners) result.push_back(values[corner]);
+  return result;
+}
+
+/// Corners and faces are coded as they are in the mesh.
+bool isPlain(const PayloadMesh& mesh) {
+  return mesh.connectivity.flipped.empty() && mesh.connectivity.vertices.empty();
+}
+
+/// The polygons' triangles, if they are not given.
+Error completeTriangles(PayloadMesh& mesh, bool given) {
+  if (!given) mesh.triangulation = fanTriangulation(mesh.polygons, mesh.ring_owners);
+  const bool as_claimed = mesh.triangulation.corners.size() == uint64_t{3} * mesh.counts.triangles;
   return as_claimed ? Error::kNone : Error::kCountMismatch;
 }
 
@@ -105,7 +108,7 @@ ArraySource PayloadMesh::arraySource() const {
   return {polygons, wedges, counts.wedges, groups, counts.groups, ring_owners, triangulation};
 }
 
-Result<PayloadMesh, PayloadFailure> decodePayloadMesh(const PayloadView& payload, const Limits& limits) {
+Result<PayloadMesh, PayloadFailure> decodeSections(const PayloadView& payload, const Limits& limits) {
   if (!isWithin(payload.counts, limits)) return PayloadFailure{Error::kLimitExceeded};
   PayloadMesh mesh;
   mesh.counts = payload.counts;
@@ -114,6 +117,42 @@ Result<PayloadMesh, PayloadFailure> decodePayloadMesh(const PayloadView& payload
       return PayloadFailure{error, nameOf(step.section)};
     }
   }
+  return mesh;
+}
+
+Error completePolygons(const PayloadView& payload, PayloadMesh& mesh) {
+  mesh.polygons = polygonsOf(mesh.connectivity, &mesh.coded_corners);
+  if (payload.has(Section::kSeams)) mesh.wedges = inMeshOrder(mesh.seams.wedges, mesh.coded_corners);
+  if (mesh.counts.welded > 0) {
+    mesh.polygons.corners = inMeshOrder(mesh.seams.vertices, mesh.coded_corners);
+    mesh.polygons.vertex_count = mesh.counts.vertices;
+  }
+  return completeTriangles(mesh, payload.has(Section::kTriangulation));
+}
+
+Error turnIntoPolygons(const PayloadView& payload, PayloadMesh& mesh) {
+  Connectivity& coded = mesh.connectivity;
+  coded.twins = {};
+  mesh.seams.attribute_seams.clear();
+  if (!isPlain(mesh)) {
+    const Error error = completePolygons(payload, mesh);
+    mesh.coded_corners = {};
+    return error;
+  }
+  const bool welded = mesh.counts.welded > 0;
+  mesh.polygons = {std::move(coded.face_degrees), std::move(welded ? mesh.seams.vertices : coded.umbrellas),
+                   mesh.counts.vertices};
+  if (payload.has(Section::kSeams)) mesh.wedges = std::move(mesh.seams.wedges);
+  coded = {};
+  mesh.seams = {};
+  return completeTriangles(mesh, payload.has(Section::kTriangulation));
+}
+
+Result<PayloadMesh, PayloadFailure> decodePayloadMesh(const PayloadView& payload, const Limits& limits) {
+  Result<PayloadMesh, PayloadFailure> mesh = decodeSections(payload, limits);
+  if (!mesh) return mesh;
+  const Error error = completePolygons(payload, *mesh);
+  if (error != Error::kNone) return PayloadFailure{error, nameOf(Section::kTriangulation)};
   return mesh;
 }
 

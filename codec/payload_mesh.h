@@ -43,4 +43,12 @@ struct PayloadFailure {
 /// decoded: kCountMismatch. Time and memory are O(counts + bytes).
 Result<PayloadMesh, PayloadFailure> decodePayloadMesh(const PayloadView& payload, const Limits& limits);
 
+/// The same in two steps, for those who want few things in memory at once. First everything that is in the sections:
+/// `polygons`, `coded_corners`, `wedges` and, where it is not given, `triangulation` stay empty.
+Result<PayloadMesh, PayloadFailure> decodeSections(const PayloadView& payload, const Limits& limits);
+
+/// Fills in what decodeSections() left out, but for `coded_corners`, and gives up `connectivity` and `seams`. May fail
+/// with kCountMismatch, because of the number of triangles.
+Error turnIntoPolygons(const PayloadView& payload, PayloadMesh& mesh);
+
 }  // namespace tutte

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "codec/mixer.h"
@@ -92,19 +93,21 @@ class MixingCoder {
 
   template <class Port>
   bool decide(Port& port, const std::array<Line*, kInputs>& lines, int rank, int bin, bool value) {
-    const int kind = rank * kBins + bin;
-    SlotGroup slots({(*lines[0])[bin].word(), (*lines[1])[bin].word(), (*lines[2])[bin].word(), (*lines[3])[bin].word(),
-                     (*lines[4])[bin].word(), (*lines[5])[bin].word(), (*lines[6])[bin].word(),
-                     (*lines[7])[bin].word()});
-    const Inputs<kInputs> inputs{slots.stretched()};
-    Weights<kInputs>& weights = weights_[static_cast<size_t>(kind)];
-    const int32_t opinion = weights.mix(inputs);
-    const auto mixed = static_cast<int32_t>(squash(opinion));
-    const auto one = static_cast<uint32_t>(mixed);
-    const bool bit = port.code(std::clamp(one, 24u, 65512u), value);
+    return decide(port, lines, static_cast<size_t>(rank * kBins + bin), static_cast<size_t>(bin), value,
+                  std::make_index_sequence<kInputs>());
+  }
+
+  template <class Port, size_t... i>
+  [[gnu::always_inline]] bool decide(Port& port, const std::array<Line*, kInputs>& lines, size_t kind, size_t bin,
+                                     bool value, std::index_sequence<i...>) {
+    const Inputs<kInputs> inputs{Lanes({(*lines[i])[bin].stretched()...})};
+    Weights<kInputs>& weights = weights_[kind];
+    const uint32_t mixed = squash(weights.mix(inputs));
+    const bool bit = port.code(std::clamp(mixed, 24u, 65512u), value);
     rate_.advance();
-    weights.learn(inputs, rate_.step((bit << 16) - mixed));
-    slots.update(bit);
+    weights.learn(inputs, rate_.step((bit << 16) - static_cast<int32_t>(mixed)));
+    const auto words = updatedSlots({(*lines[i])[bin].word()...}, bit);
+    ((*lines[i])[bin].setWord(words[i]), ...);
     return bit;
   }
 

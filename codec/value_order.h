@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -40,15 +39,16 @@ class Urgencies {
 /// Per site: urge(), then learn().
 class SiteOrder {
  public:
-  explicit SiteOrder(Index sites)
-      : states_(sites, kUnknown), stacked_(new Index[(size_t{sites} + 1) * kLevels]), stride_(size_t{sites} + 1) {}
+  explicit SiteOrder(Index sites) : states_(sites, kUnknown) {
+    for (Stack& stack : stacks_) stack.sites.resize(64);
+  }
 
   /// The next site; there must be one that is not known.
   Index next() {
     for (; top_ >= 0; --top_) {
-      Index& size = sizes_[top_];
-      while (size > 0) {
-        const Index site = stacked_[stride_ * top_ + --size];
+      Stack& stack = stacks_[top_];
+      while (stack.size > 0) {
+        const Index site = stack.sites[--stack.size];
         if (!known(site)) return site;
       }
     }
@@ -73,11 +73,12 @@ class SiteOrder {
       const unsigned before = states_[site] - kUnknown;
       const unsigned now = std::clamp(before + amount, 1u, kMost);
       states_[site] = kUnknown + now;
-      // A site comes to every level once, so that no stack overflows.
       const unsigned level = kLevelOf[now];
       const bool rises = level != kLevelOf[before];
-      stacked_[stride_ * level + sizes_[level]] = site;
-      sizes_[level] += rises;
+      Stack& stack = stacks_[level];
+      stack.sites[stack.size] = site;
+      stack.size += rises;
+      if (stack.size == stack.sites.size()) stack.sites.resize(2 * stack.size);
       top_ = rises ? std::max(top_, static_cast<int>(level)) : top_;
     }
   }
@@ -97,10 +98,13 @@ class SiteOrder {
     return levels;
   }();
 
-  std::vector<Index> states_;         // the rank of a known site; kUnknown and the score of others
-  std::unique_ptr<Index[]> stacked_;  // kLevels stacks
-  std::array<Index, kLevels> sizes_{};
-  size_t stride_;
+  struct Stack {
+    std::vector<Index> sites;  // with room for one more
+    size_t size = 0;
+  };
+
+  std::vector<Index> states_;  // the rank of a known site; kUnknown and the score of others
+  std::array<Stack, kLevels> stacks_;
   int top_ = -1;  // no higher stack has anything
   Index seed_ = 0, known_ = 0;
 };

@@ -33,15 +33,21 @@ PolygonMesh polygonMeshOf(PayloadMesh&& mesh, std::vector<Attribute>&& attribute
           .attributes = std::move(attributes)};
 }
 
+// The attributes are decoded before there are polygons, so that less is in memory at once.
 Outcome<PolygonMesh> unpackSections(std::span<const uint8_t> bytes, const Limits& limits, bool with_attributes) {
   const Result<PayloadView> payload = parsePayload(bytes);
   if (!payload) return failureOf(payload.error(), "header");
-  Result<PayloadMesh, PayloadFailure> mesh = decodePayloadMesh(*payload, limits);
+  Result<PayloadMesh, PayloadFailure> mesh = decodeSections(*payload, limits);
   if (!mesh) return failureOf(mesh.error().error, std::string(mesh.error().where));
-  if (!with_attributes) return polygonMeshOf(std::move(*mesh), {});
-  Outcome<std::vector<Attribute>> attributes = attributesOf(*payload, *mesh);
-  if (!attributes) return attributes.error();
-  return polygonMeshOf(std::move(*mesh), std::move(*attributes));
+  std::vector<Attribute> attributes;
+  if (with_attributes) {
+    Outcome<std::vector<Attribute>> decoded = attributesOf(*payload, *mesh);
+    if (!decoded) return decoded.error();
+    attributes = *std::move(decoded);
+  }
+  const Error error = turnIntoPolygons(*payload, *mesh);
+  if (error != Error::kNone) return failureOf(error, std::string(nameOf(Section::kTriangulation)));
+  return polygonMeshOf(std::move(*mesh), std::move(attributes));
 }
 
 }  // namespace
