@@ -72,6 +72,7 @@ class EndFlags {
     here.parted = static_cast<uint8_t>(std::min(here.parted + flag, 2));
     --here.left;
     known_[corner] = static_cast<uint8_t>(1 + flag);
+    history_ = (history_ * 2 + flag) % 16;
     return flag;
   }
 
@@ -80,7 +81,7 @@ class EndFlags {
     return quiet_[((other * 2 + here.open) * 2 + (here.left <= 2)) * 2 + (there.left <= 2)];
   }
 
-  std::array<uint32_t, 4> contextsOf(Index corner, Index far, const Around& here, const Around& there) const {
+  std::array<uint32_t, 6> contextsOf(Index corner, Index far, const Around& here, const Around& there) const {
     const Index after = links_.across[corner], before = links_.back[corner];
     const uint32_t sides = known(after) * 3 + known(before);
     const uint32_t next_but_one = known(across(after)) * 3 + known(back(before));
@@ -89,14 +90,33 @@ class EndFlags {
     const uint32_t seen = known_[far] * 9 + here.parted * 3 + there.parted;
     const uint32_t corners = std::max<uint32_t>(here.corners, 3) - 3;
     const uint32_t room = (std::min(here.left, 8u) - 1) * 8 + std::min(there.left, 7u);
-    return {((sides * 9 + next_but_one) * 5 + corners) * 27 + seen, straight * 27 + seen, room * 27 + seen,
-            (far_sides * 9 + sides) * 9 + known_[far] * 3 + here.parted};
+    return {((sides * 9 + next_but_one) * 5 + corners) * 27 + seen,
+            straight * 27 + seen,
+            room * 27 + seen,
+            (far_sides * 9 + sides) * 9 + known_[far] * 3 + here.parted,
+            ((facing(corner) * 3 + facing(far)) * 16 + history_) * 27 + seen,
+            (beside(corner) * 9 + beside(far)) * 27 + seen};
   }
 
   /// 0: not known (or no end); 1 or 2: the flag was 0 or 1.
   uint32_t known(Index end) const { return end == kNone ? 0 : known_[end]; }
   Index across(Index end) const { return end == kNone ? kNone : links_.across[end]; }
   Index back(Index end) const { return end == kNone ? kNone : links_.back[end]; }
+
+  /// Of an edge, by one of its ends: 2 when a flag of it is 1, 1 when none is that is known, 0 when none is known.
+  uint32_t edge(Index end) const {
+    const Index twin = mesh_.twins[end];
+    return twin == kNone ? 0 : std::max(known_[end], known_[twin]);
+  }
+
+  /// The edges before and after this one in its face.
+  uint32_t beside(Index end) const { return edge(links_.next[end]) * 3 + edge(links_.prev[end]); }
+
+  /// The edge at the other side of a quad.
+  uint32_t facing(Index end) const {
+    const Index far_corner = links_.next[links_.next[end]];
+    return links_.next[links_.next[far_corner]] == end ? edge(far_corner) : 0;
+  }
 
   /// The end that continues an edge straight through a vertex with four corners.
   uint32_t opposite(Index end, const Around& here) const {
@@ -111,8 +131,9 @@ class EndFlags {
   std::span<const uint8_t> candidates_, given_;
   std::vector<Around> around_;
   std::vector<uint8_t> known_;
+  uint32_t history_ = 0;  ///< the last four flags
   std::array<values::Chance, 16> quiet_;
-  MixedFlag<4> mixed_{{81 * 5 * 27, 9 * 27, 64 * 27, 81 * 9}, 3};
+  MixedFlag<6> mixed_{{81 * 5 * 27, 9 * 27, 64 * 27, 81 * 9, 9 * 16 * 27, 81 * 27}, 3};
 };
 
 }  // namespace tutte

@@ -1,12 +1,11 @@
 #include "codec/seams.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "codec/end_flags.h"
-#include "codec/model.h"
 #include "codec/range_coder.h"
+#include "codec/run_parts.h"
 #include "codec/umbrella_links.h"
 
 namespace tutte {
@@ -18,49 +17,6 @@ std::vector<uint8_t> interiorEnds(const Connectivity& mesh) {
   for (size_t corner = 0; corner < ends.size(); ++corner) ends[corner] = mesh.twins[corner] != kNone;
   return ends;
 }
-
-/// Runs are the largest sets of corners around an umbrella that no parted end separates, numbered by first corner.
-std::vector<Index> findRuns(const UmbrellaLinks& links, std::span<const uint8_t> parted, std::vector<Index>& firsts) {
-  std::vector<Index> run_of(parted.size(), kNone);
-  for (Index corner = 0; corner < parted.size(); ++corner) {
-    if (run_of[corner] != kNone) continue;
-    const Index run = static_cast<Index>(firsts.size());
-    firsts.push_back(corner);
-    for (Index c = corner; c != kNone && run_of[c] == kNone; c = parted[c] ? kNone : links.across[c]) run_of[c] = run;
-    for (Index c = links.back[corner]; c != kNone && !parted[c] && run_of[c] == kNone; c = links.back[c]) {
-      run_of[c] = run;
-    }
-  }
-  return run_of;
-}
-
-/// Codes the part of each run, as its number within the whole. A whole's first run has its first part; a later one has
-/// a new part or one that an earlier run of the whole has.
-template <class Port>
-class RunParts {
- public:
-  RunParts(Port& port, const Connectivity& mesh, std::span<const Index> wholes, Index whole_count)
-      : port_(port), mesh_(mesh), wholes_(wholes), used_(whole_count), seen_(mesh.umbrella_count) {}
-
-  Index code(Index first_corner, Index part) {
-    Index& used = used_[wholes_[first_corner]];
-    uint8_t& seen = seen_[mesh_.umbrellas[first_corner]];
-    const bool reused = used != 0 && reuse_[seen].code(port_, part < used);
-    seen = 1;
-    return reused ? port_.uniform(used, part) : used++;
-  }
-
-  /// Afterwards: per whole, how many parts its corners use.
-  const std::vector<Index>& used() const { return used_; }
-
- private:
-  Port& port_;
-  const Connectivity& mesh_;
-  const std::span<const Index> wholes_;
-  std::vector<Index> used_;
-  std::vector<uint8_t> seen_;
-  std::array<Bit, 2> reuse_;  ///< is it another run of an umbrella that had one before?
-};
 
 /// How the ends of one attribute are told.
 enum class Parting : uint8_t { kNever, kAlways, kMixed };
@@ -128,14 +84,13 @@ std::vector<uint8_t> encodeLevel(RangeWriter& port, const Connectivity& mesh, co
                                  const Level& whole, std::span<const Index> parts) {
   std::vector<uint8_t> parted = partedEnds(links, parts);
   EndFlags<RangeWriter>(port, mesh, links, joinedEnds(mesh, whole), whole.parted).code(parted);
-  std::vector<Index> firsts;
-  findRuns(links, parted, firsts);
-  RunParts<RangeWriter> runs(port, mesh, whole.of_corner, whole.count);
+  const Runs runs(links, parted);
+  RunParts<RangeWriter> coder(port, mesh, runs, whole.of_corner, whole.count);
   std::vector<Index> base(whole.count, kNone);
-  for (const Index first : firsts) {
+  for (const Index first : runs.firsts) {
     Index& start = base[whole.of_corner[first]];
     if (start == kNone) start = parts[first];
-    runs.code(first, parts[first] - start);
+    coder.code(parts[first] - start);
   }
   return parted;
 }
@@ -156,12 +111,10 @@ Level numberRuns(const Level& whole, std::span<const Index> run_of, std::span<co
 Result<Level> decodeLevel(RangeReader& port, const Connectivity& mesh, const UmbrellaLinks& links, const Level& whole) {
   std::vector<uint8_t> parted(mesh.umbrellas.size());
   EndFlags<RangeReader>(port, mesh, links, joinedEnds(mesh, whole), whole.parted).code(parted);
-  std::vector<Index> firsts;
-  const std::vector<Index> run_of = findRuns(links, parted, firsts);
-  RunParts<RangeReader> runs(port, mesh, whole.of_corner, whole.count);
-  std::vector<Index> local(firsts.size());
-  for (size_t run = 0; run < firsts.size(); ++run) local[run] = runs.code(firsts[run], 0);
-  Level parts = numberRuns(whole, run_of, local, runs.used());
+  const Runs runs(links, parted);
+  RunParts<RangeReader> coder(port, mesh, runs, whole.of_corner, whole.count);
+  for (size_t run = 0; run < runs.firsts.size(); ++run) coder.code(0);
+  Level parts = numberRuns(whole, runs.of_corner, coder.parts(), coder.used());
   // A damaged stream may give the same part to two runs that it has parted, or part a run from itself.
   if (partedEnds(links, parts.of_corner) != parted) return Error::kMalformed;
   parts.parted = std::move(parted);

@@ -193,15 +193,15 @@ Connectivity inItsOwnOrder(const Polygons& polygons) {
 TEST(Seams, GoldenBytes) {
   const Connectivity cube = inItsOwnOrder(shapes::cube().mesh);
   const std::vector<Index> apart = numbered(cube, overlays::wedgesByColour(cube, 0, 1, 0)).parts;
-  EXPECT_EQ(encodeSeams(cube, {}, apart, {}), (Bytes{0x00, 0x00, 0x30}));
+  EXPECT_EQ(encodeSeams(cube, {}, apart, {}), (Bytes{}));
   std::vector<Index> one_more = withoutSeams(cube, 0).wedges;
   one_more[0] = 8;
   const std::vector<Index> cut = numbered(cube, one_more).parts;
   const Bytes data = {0, 1, 0, 0, 0, 0, 0, 0, 0};
   const std::vector<ValueView> views(2, ValueView{data, 1});
-  EXPECT_EQ(encodeSeams(cube, {}, cut, views), (Bytes{0x0E, 0x50}));
+  EXPECT_EQ(encodeSeams(cube, {}, cut, views), (Bytes{0x0E, 0x40}));
   EXPECT_EQ(encodeSeams(cube, cut, cut, views), (Bytes{0x0E, 0x50}));
-  EXPECT_EQ(encodeSeams(cube, cut, apart, {}), (Bytes{0x0E, 0x33, 0xE3, 0xF3}));
+  EXPECT_EQ(encodeSeams(cube, cut, apart, {}), (Bytes{0x0E, 0x14, 0xAA, 0x78}));
 }
 
 void expectHarmless(const Connectivity& mesh, bool welded, std::span<const uint8_t> bytes) {

@@ -75,9 +75,11 @@ class Ends:
     def __init__(self, mesh):
         self.twins, self.umbrellas = mesh.twins, mesh.umbrellas
         self.across, self.back, self.open, corner = {}, {}, set(), 0
+        self.following, self.preceding, self.degree = {}, {}, {}
         for degree in mesh.degrees:
             for c in range(corner, corner + degree):
                 following = c + 1 if c + 1 < corner + degree else corner
+                self.following[c], self.preceding[following], self.degree[c] = following, c, degree
                 if mesh.twins[c] is None:
                     self.open.add(mesh.umbrellas[c])
                 else:
@@ -90,7 +92,7 @@ class Ends:
 class FlagPass:
     def __init__(self, ends, candidates, given=frozenset()):
         self.ends, self.candidates = ends, candidates
-        self.quiet, self.mixed = [Chance(4096) for _ in range(16)], MixedFlag(4, 3)
+        self.quiet, self.mixed, self.history = [Chance(4096) for _ in range(16)], MixedFlag(6, 3), 0
         self.known = {end: 2 for end in given}
         self.left, self.parted, self.corners = {}, {}, {}
         for c, u in enumerate(ends.umbrellas):
@@ -121,6 +123,7 @@ class FlagPass:
         self.parted[u] = min(2, self.parted[u] + flag)
         self.left[u] -= 1
         self.known[e] = 1 + flag
+        self.history = (2 * self.history + flag) & 15
 
     def state(self, end):
         return self.known.get(end, 0)
@@ -134,7 +137,20 @@ class FlagPass:
         seen = known(far) * 9 + self.parted[u] * 3 + self.parted[v]
         room = (min(self.left[u], 8) - 1) * 8 + min(self.left[v], 7)
         return [((sides * 9 + wide) * 5 + max(self.corners[u], 3) - 3) * 27 + seen, straight * 27 + seen, room * 27 + seen,
-                (far_sides * 9 + sides) * 9 + known(far) * 3 + self.parted[u]]
+                (far_sides * 9 + sides) * 9 + known(far) * 3 + self.parted[u],
+                ((self.facing(e) * 3 + self.facing(far)) * 16 + self.history) * 27 + seen,
+                (self.beside(e) * 9 + self.beside(far)) * 27 + seen]
+
+    def edge(self, x):
+        twin = self.ends.twins[x]
+        return 0 if twin is None else max(self.state(x), self.state(twin))
+
+    def facing(self, x):
+        following = self.ends.following
+        return self.edge(following[following[x]]) if self.ends.degree[x] == 4 else 0
+
+    def beside(self, x):
+        return self.edge(self.ends.following[x]) * 3 + self.edge(self.ends.preceding[x])
 
     def opposite(self, end, umbrella):
         if self.corners[umbrella] != 4:
@@ -158,18 +174,44 @@ def runs(ends, parted):
     return first
 
 
+class PartModels:
+    def __init__(self):
+        self.runs = self.latest = 0
+        self.reuse, self.pick = {}, {}
+
+    def read(self, stream, choices):
+        """The rank of an earlier part, or None."""
+        if not choices:
+            return None
+        reused = self.reuse.setdefault((min(choices, 3), self.runs), Bit()).read(stream)
+        self.runs = (2 * self.runs + reused) & 7
+        if not reused:
+            return None
+        if choices == 1:
+            return 0
+        r = 0
+        while r < 3 and r + 1 < choices and not self.pick.setdefault((min(choices, 4), r, self.latest), Bit()).read(stream):
+            r += 1
+        self.latest = r
+        return 3 + stream.uniform(choices - 3) if r == 3 and choices > 4 else r
+
+
 def part(stream, ends, wholes, count):
     """Per corner its part, how many there are, and the parted ends."""
     given = {c for c in ends.all if wholes[c] != wholes[ends.across[c]]}
     parted = FlagPass(ends, ends.all - given, given).run(stream)
-    first, local, used, seen, reuse = runs(ends, parted), {}, [0] * count, set(), [Bit(), Bit()]
+    first, used, seen, models = runs(ends, parted), [0] * count, set(), [PartModels(), PartModels()]
+    neighbours, local = {}, {}
+    for end in parted:
+        neighbours.setdefault(first[end], set()).add(first[ends.across[end]])
+        neighbours.setdefault(first[ends.across[end]], set()).add(first[end])
     for c in sorted(set(first.values())):
         whole, umbrella = wholes[c], ends.umbrellas[c]
-        if used[whole] and reuse[umbrella in seen].read(stream):
-            local[c] = stream.uniform(used[whole])
-        else:
-            local[c] = used[whole]
-            used[whole] += 1
+        barred = {local[run] for run in neighbours.get(c, ()) if run in local and wholes[run] == whole}
+        choices = [number for number in range(used[whole]) if number not in barred]
+        chosen = models[umbrella in seen].read(stream, len(choices))
+        local[c] = used[whole] if chosen is None else choices[chosen]
+        used[whole] += chosen is None
         seen.add(umbrella)
     base, total = [], 0
     for parts in used:

@@ -215,7 +215,7 @@ bool writePayloads(const std::filesystem::path& folder, const shapes::Named& nam
   if (!encoded) return false;
   if (encoded->connectivity.umbrellas.size() > 500) return true;
   return writePayload(folder / (named.name + ".wedges"), *encoded, 1, 3) &&
-         writePayload(folder / (named.name + ".welded"), *encoded, 4, 1) &&
+         writePayload(folder / (named.name + ".welded"), *encoded, 9, 1) &&
          writePayload(folder / (named.name + ".both"), *encoded, 2, 2);
 }
 
