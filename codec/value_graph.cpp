@@ -44,9 +44,14 @@ ValueGraph::ValueGraph(const Connectivity& mesh, Index site_count)
 
 ValueGraph::ValueGraph(const Connectivity& mesh, std::vector<Index> sites, Index site_count)
     : site_count_(site_count), own_sites_(std::move(sites)), sites_(own_sites_), twins_(mesh.twins) {
-  listShapes(mesh.face_degrees);
-  dropSeamTwins();
-  listFans();
+  const bool all_round = listShapes(mesh.face_degrees), umbrellas = std::ranges::equal(sites_, mesh.umbrellas);
+  if (umbrellas) {
+    sites_ = mesh.umbrellas;
+    own_sites_ = {};
+  } else {
+    dropSeamTwins();
+  }
+  umbrellas&& all_round ? findFirsts() : listFans();
 }
 
 // False when there are faces round which there is no way.

@@ -10,14 +10,14 @@
 
 namespace tutte::values {
 
-/// Vectors of `C` components, three of them padded to four. Numbers of type `T`: 32 bits hold everything about values
-/// below 2^20 with their fractions.
+/// Vectors of `C` components, two or four; what is not used of them is 0. Numbers of type `T`: 32 bits hold everything
+/// about values below 2^20 with their fractions.
 template <int C, class T>
-using Vec = std::array<T, C == 3 ? 4 : C>;
+using Vec = std::array<T, C>;
 
 /// A site whose value is known.
 template <int C>
-struct alignas(C >= 3 ? 16 : 8) Node {
+struct alignas(C == 4 ? 16 : 8) Node {
   Vec<C, int32_t> value{};
   Vec<C, int32_t> error{};  ///< how far the prediction was off, in 1/16; at most kLargestError
 };

@@ -59,7 +59,7 @@ class SitePredictor {
       codeComponents();
     }
     last_ = wanted_;
-    if constexpr (!Port::kWriting) std::copy_n(last_.begin(), count_, value.begin());
+    for (int i = 0; i < width() && !Port::kWriting; ++i) value[i] = last_[i];
     nodes_.add({last_, errors_}, picked_);
     guide_.learn(around.site, last_);
     if (echoes_) echoes_->learn(around.site);
@@ -75,7 +75,7 @@ class SitePredictor {
 
   bool parallelograms() const { return stencil_.member_count > 0; }
 
-  int width() const { return C == 2 || C == 3 ? C : count_; }
+  int width() const { return C == 2 ? C : count_; }
 
   // The value of an earlier site; the residuals are what they would have been.
   bool echo(Index site) {
@@ -196,7 +196,7 @@ class SitePredictor {
     std::array<int, C> order{};
     for (int i = 0; i < C; ++i) order[i] = i;
     bent_ = false;
-    if constexpr (C == 3) {
+    if constexpr (C == 4) {
       if (stencil_.normal == std::array<int64_t, 3>{}) return order;
       std::array<uint64_t, 3> size{};
       for (int i = 0; i < 3; ++i) {
@@ -206,7 +206,8 @@ class SitePredictor {
       // Ascending; equal ones stay as they are.
       constexpr std::array<std::array<int, 3>, 8> kOrders = {
           {{0, 1, 2}, {0, 2, 1}, {0, 1, 2}, {2, 0, 1}, {1, 0, 2}, {0, 1, 2}, {1, 2, 0}, {2, 1, 0}}};
-      order = kOrders[(size[0] > size[1]) * 4 + (size[0] > size[2]) * 2 + (size[1] > size[2])];
+      std::ranges::copy(kOrders[(size[0] > size[1]) * 4 + (size[0] > size[2]) * 2 + (size[1] > size[2])],
+                        order.begin());
       const int shift = static_cast<int>(std::bit_width(size[order[2]])) - 12;
       for (int i = 0; i < 3; ++i) normal_[i] = shift > 0 ? stencil_.normal[i] >> shift : stencil_.normal[i];
       bent_ = normal_[order[2]] != 0;
@@ -245,7 +246,7 @@ class SitePredictor {
     about.fraction = static_cast<uint32_t>(prediction & 15);
     const T apart = stencil_.lean[i] - prediction;
     about.apart = static_cast<int32_t>(std::min<T>(apart < 0 ? -apart : apart, kWidest));
-    const int64_t side = C == 3 && bent_ ? normal_[i] : apart;
+    const int64_t side = bent_ ? normal_[i] : apart;
     about.sign = static_cast<int>(about.fraction >> 1) * 3 + (side > 0) - (side < 0) + 1;
     int32_t estimate = width() == 1 ? near
                        : rank == 0  ? (2 * all + near) / 3

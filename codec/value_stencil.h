@@ -27,7 +27,7 @@ class Stencil {
   void gather(const Surroundings& around, const Vec<C, int32_t>& last, bool want_normal) {
     sumNeighbours(around.neighbours);
     makeMembers(around);
-    if constexpr (C == 3) {
+    if constexpr (C == 4) {
       if (want_normal) sumNormals(around);
     }
     settle(around, last);
@@ -56,7 +56,7 @@ class Stencil {
   std::array<int64_t, 3> normal{};  ///< of the surroundings, not of unit length; 0: unknown
 
  private:
-  static constexpr int kWidth = static_cast<int>(std::tuple_size_v<Values>);
+  static constexpr int kWidth = C;
   static constexpr T kOne = 1 << kFraction;
 
   const Vec<C, int32_t>& value(Index rank) const { return nodes_[rank].value; }

@@ -32,7 +32,9 @@ template <class Faces>
   if constexpr (!Faces::kAllTriangles) {
     const int inside = lists.scaled.size() + lists.within.size();
     if (inside == 1 || (inside == 0 && lists.across.size() < 2)) {
-      for (const Index corner : graph_.corners(site)) lookFar(faces, corner);
+      graph_.forFans(faces, site, [&](std::span<const Index> fan, bool) {
+        for (const Index corner : fan) lookFar(faces, corner);
+      });
     }
   }
   order_.urge(urgencies_.entries());
@@ -160,9 +162,11 @@ void SurroundingsFinder::lookFar(const AnyFaces& faces, Index corner) {
 
 // The face beyond the edge from a (the neighbour) to c: y lies beyond a, x beyond c.
 void SurroundingsFinder::lookFar(Index a, Index c, Index beyond_a, Index beyond_c, Index degree) {
-  const Index rank_a = order_.rank(a), rank_c = order_.rank(c);
+  const Index rank_a = order_.rank(a);
+  if (!SiteOrder::isRank(rank_a)) return;
+  const Index rank_c = order_.rank(c);
   const Index x = order_.rank(graph_.site(beyond_c)), y = order_.rank(graph_.site(beyond_a));
-  const bool over = SiteOrder::isRank(rank_a | rank_c | x), straight = SiteOrder::isRank(rank_a | y) && degree > 3;
+  const bool over = SiteOrder::isRank(rank_c | x), straight = SiteOrder::isRank(y) & (degree > 3);
   lists_->over.add({rank_a, rank_c, x, degree == 3}, over && lists_->over.size() < kMostFar);
   lists_->straight.add({rank_a, rank_a, y, 0}, straight && lists_->straight.size() < kMostFar);
 }

@@ -38,8 +38,7 @@ struct Run {
     switch (format.kind) {
       case ValueKind::kTexcoord: return code<2, int32_t, TexcoordGuide>();
       case ValueKind::kDirection: return code<2, int32_t, DirectionGuide>();
-      case ValueKind::kPoints: return code<3, int32_t, NoGuide<3>>();
-      default: return code<4, int64_t, NoGuide<4>>();
+      default: return format.max <= kMaxPoint ? code<4, int32_t, NoGuide<4>>() : code<4, int64_t, NoGuide<4>>();
     }
   }
 

@@ -7,7 +7,7 @@ from value_models import Chances, bit_length
 class Echoes:
     def __init__(self, coder):
         self.coder, self.places, self.coded, self.last, self.same = coder, {}, [], {}, {}
-        self.bits = min(bit_length(coder.graph.site_count) + 2, 28)
+        self.bits = min(bit_length(coder.graph.site_count), 28)
         self.hits, self.longer, self.history = Chances(), Chances(), 0
 
     def slot(self, value):
