@@ -14,7 +14,7 @@ FOLDERS = ('polygon', 'paper-polygon', 'paper-triangle', 'triangle')
 CODERS = (("Draco's classes over our connectivity", ['--attribute-coder', 'draco']),
           ('one context (`fast`)', ['--attribute-coder', 'tutte', '--profile', 'fast']),
           ('two contexts, blended (`default`)', ['--attribute-coder', 'tutte', '--profile', 'default']),
-          ('five contexts, mixed (`small`)', ['--attribute-coder', 'tutte', '--profile', 'small']),
+          ('eight contexts, mixed (`small`)', ['--attribute-coder', 'tutte', '--profile', 'small']),
           ('the choice of `encode`', []))
 
 
