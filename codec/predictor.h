@@ -37,16 +37,42 @@ class Predictor {
   static constexpr int kInputs = kContexts < 8 ? 8 : 16;
   static constexpr int kSituations = 512;
   static constexpr int kMatchLengths = 8;
+  static constexpr int kSure = 1023, kMostRun = 16383;
   static_assert(kContexts < 16);
 
   /// Tables of 2^table_bits lines.
   explicit Predictor(int table_bits)
-      : shift_(64 - table_bits), table_lines_(size_t{1} << table_bits), lines_(table_lines_ * kContexts) {
+      : shift_(64 - table_bits),
+        table_lines_(size_t{1} << table_bits),
+        lines_(table_lines_ * kContexts),
+        runs_(kMixes ? table_lines_ : 0) {
     weights_.by_node.fill(kInitial);
     if constexpr (kRich) {
       weights_.by_situation.fill(kInitial);
       weights_.by_match.fill(kInitial);
     }
+  }
+
+  /// With several contexts: has the first decision always been a yes lately where this key stood? Most of a regular
+  /// mesh is coded so, without looking at any context.
+  [[gnu::always_inline]] bool isSure(uint64_t key) {
+    if constexpr (!kMixes) return false;
+    run_ = &runs_[key * 0x9E3779B97F4A7C15u >> shift_];
+    return *run_ >= kSure;
+  }
+
+  /// Codes a first decision of which isSure() said so.
+  template <class Port>
+  [[gnu::always_inline]] bool codeSure(Port& port, bool value) {
+    const bool bit = port.code(65536 - 65536 / (*run_ + 2u), value);
+    noteFirst(bit);
+    return bit;
+  }
+
+  /// To be told every other first decision, after isSure().
+  [[gnu::always_inline]] void noteFirst(bool bit) {
+    if constexpr (!kMixes) return;
+    *run_ = static_cast<uint16_t>(bit ? std::min(*run_ + 1, kMostRun) : *run_ / 8);
   }
 
   /// Selects the lines for a symbol.
@@ -167,6 +193,8 @@ class Predictor {
   size_t table_lines_;
   std::vector<Line> lines_;
   std::array<Line*, kContexts> line_{};
+  std::vector<uint16_t> runs_;  // by key: how often in a row the first decision was a yes
+  uint16_t* run_ = nullptr;
   std::conditional_t<kRich, RichWeights, PlainWeights> weights_;
   LearningRate rate_;
   [[no_unique_address]] std::conditional_t<kRich, FinalMap<kNodes>, NoMap> final_;

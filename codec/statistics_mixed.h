@@ -112,16 +112,24 @@ class MixedStatistics {
     const Index face = question.dummy ? 1 : std::min(question.degree, Index{15});
     const Index usual = usual_.of(face);
     const VertexFeatures features(seed, question, history_);
-    vertices_.enter(Profile::Vertex::keys(features, face | features.missing << 4 | usual << 7));
+    const uint64_t shared = face | features.missing << 4 | usual << 7;
     const Index expected = match_.expected();
     expected_ = expected < 128 ? expected : MatchModel::kNoSymbol;
     const int situation = static_cast<int>(face * 4 + (question.missing > 1) * 2 + (question.index > 0));
     const auto decide = [&](int node, int step, bool matched, bool value) {
       return this->decide(port, vertices_, {node, situation + 64 * step}, matched, value);
     };
-    const Index valence = decide(0, 0, expected == usual, truth == usual)
-                              ? usual
-                              : codeUnusual(port, usual, Seed::value, truth, expected, decide);
+    bool is_usual;
+    if (vertices_.isSure(keyOf<VertexContext::kSums>(features) | shared << 44)) {
+      is_usual = vertices_.codeSure(port, truth == usual);
+      if (!is_usual) vertices_.enter(Profile::Vertex::keys(features, shared));
+      if (!is_usual && expected == usual) expected_ = MatchModel::kNoSymbol;
+    } else {
+      vertices_.enter(Profile::Vertex::keys(features, shared));
+      is_usual = decide(0, 0, expected == usual, truth == usual);
+      vertices_.noteFirst(is_usual);
+    }
+    const Index valence = is_usual ? usual : codeUnusual(port, usual, Seed::value, truth, expected, decide);
     usual_.add(face, valence);
     history_.addValence(valence);
     match_.add(std::min(valence, Index{100}));

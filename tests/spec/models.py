@@ -170,10 +170,13 @@ class Mixer:
         self.final = [[squashed(clamp(128 * i - 2048, -2047, 2047)) for i in range(33)] for _ in range(16)]
         self.decisions = self.rate = 0
 
+    def line(self, key):
+        return (key * 0x9E3779B97F4A7C15 % 2**64) >> (64 - self.table_bits)
+
     def enter(self, keys):
         self.lines = []
         for table, key in zip(self.tables, keys):
-            line = (key * 0x9E3779B97F4A7C15 % 2**64) >> (64 - self.table_bits)
+            line = self.line(key)
             if line not in table:
                 table[line] = [Slot() for _ in range(16)]
             self.lines.append(table[line])

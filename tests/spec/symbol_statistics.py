@@ -164,6 +164,7 @@ class Mixed:
         self.vertex_contexts, self.face_contexts, rich = PROFILES[section.profile]
         self.vertices = Mixer(len(self.vertex_contexts), rich, section.table_bits)
         self.faces = Mixer(len(self.face_contexts), rich, section.table_bits)
+        self.runs = {}
         self.match = Match(section.match)
         self.valences, self.degrees = [0, 0, 0], [0, 0, 0]
         self.counts = [[0] * 16 for _ in range(16)]
@@ -240,19 +241,33 @@ class Mixed:
         shared = (f.face | f.missing << 4 | f.usual << 7) << 44
         self.vertices.enter([VERTEX[name](f) | shared for name in self.vertex_contexts])
         self.contradicted = False
+        place = self.vertices.line(VERTEX['sums'](f) | shared) if len(self.vertex_contexts) > 1 else None
         situation = face * 4 + (walk.missing > 1) * 2 + (walk.index > 0)
-        valence = self.read_valence(stream, usual, situation, walk.head is None)
+        valence = self.read_valence(stream, usual, situation, walk.head is None, place)
         self.count(face, valence)
         self.valences = [min(valence, 255)] + self.valences[:2]
         self.match.add(min(valence, 100))
         return valence
 
-    def read_valence(self, stream, usual, situation, seed):
+    def read_first(self, stream, usual, decide, place):
+        """Is it the usual valence? Where it was so often enough in a row, that is nearly certain."""
+        if place is None:
+            return decide(0, 0, lambda s: s == usual)
+        run = self.runs.get(place, 0)
+        if run >= 1023:
+            answer = stream.bit(65536 - 65536 // (run + 2))
+            self.contradicted = not answer and self.match.expected() == usual
+        else:
+            answer = decide(0, 0, lambda s: s == usual)
+        self.runs[place] = min(run + 1, 16383) if answer else run // 8
+        return answer
+
+    def read_valence(self, stream, usual, situation, seed, place):
         def decide(node, step, told):
             return self.decide(stream, self.vertices, node, situation + 64 * step,
                                lambda s: int(told(s)) if s < 128 else None)
 
-        if decide(0, 0, lambda s: s == usual):
+        if self.read_first(stream, usual, decide, place):
             return usual
         if decide(1, 1, lambda s: s < usual):
             for v in range(usual - 1, 2, -1):

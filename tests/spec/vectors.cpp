@@ -242,7 +242,11 @@ int main(int argc, char** argv) {
   }
   std::filesystem::remove_all(argv[1]);
   std::filesystem::create_directories(argv[1]);
-  for (const tutte::shapes::Named& named : tutte::shapes::allShapes()) {
+  std::vector<tutte::shapes::Named> all = tutte::shapes::allShapes();
+  // Long enough for valences that are as good as certain, and for their exceptions.
+  all.push_back({"merged_torus", tutte::shapes::mergeFaces(tutte::shapes::quadTorus(50, 60), 9, 1)});
+  all.push_back({"long_plate", tutte::shapes::plate(60, 50)});
+  for (const tutte::shapes::Named& named : all) {
     if (tutte::writeVectors(argv[1], named)) continue;
     std::fprintf(stderr, "%s: not written\n", named.name.c_str());
     return 1;
