@@ -40,6 +40,9 @@ class ComponentLog {
 
   bool replaying() const { return replaying_; }
 
+  /// The number of the component that the current one repeats; kNone: none.
+  Index original() const { return replaying_ ? recent_.front().number : kNone; }
+
   /// Of the current component: the next symbol that was recorded.
   Index next() { return at_ < symbols_.size() ? symbols_[at_++] : kNone; }
 

@@ -37,6 +37,12 @@ struct Limits {
   Index max_corners = 1u << 30;
 };
 
+/// A component whose connectivity is an earlier one's: corner by corner, its `count` corners from `corner` on repeat
+/// those from `original` on.
+struct ComponentCopy {
+  Index corner = 0, original = 0, count = 0;
+};
+
 /// The connectivity as both sides know it after the walk, in coded order: attributes are coded over it.
 ///
 /// A vertex that is not manifold in the input is cut into several *umbrellas*, each with one fan of corners; a
@@ -46,13 +52,14 @@ struct Limits {
 ///
 /// Faces of degree below 3 come after all others; each of their corners is an umbrella of its own.
 struct Connectivity {
-  std::vector<Index> face_degrees;  ///< per face
-  std::vector<Index> umbrellas;     ///< per corner: its umbrella, in coded orientation
-  std::vector<Index> twins;         ///< per corner c: the corner at the far end's side of the edge from c to the next
-                                    ///< corner of its face, i.e. the edge of the other face that runs backwards along
-                                    ///< it; kNone on a boundary
-  std::vector<Index> vertices;      ///< per umbrella: its vertex (numbered by first appearance); empty: the identity
-  std::vector<uint8_t> flipped;     ///< per face: 1 when the input has it the other way round; empty: none is
+  std::vector<Index> face_degrees;    ///< per face
+  std::vector<Index> umbrellas;       ///< per corner: its umbrella, in coded orientation
+  std::vector<Index> twins;           ///< per corner c: the corner at the far end's side of the edge from c to the next
+                                      ///< corner of its face, i.e. the edge of the other face that runs backwards along
+                                      ///< it; kNone on a boundary
+  std::vector<Index> vertices;        ///< per umbrella: its vertex (numbered by first appearance); empty: the identity
+  std::vector<uint8_t> flipped;       ///< per face: 1 when the input has it the other way round; empty: none is
+  std::vector<ComponentCopy> copies;  ///< those that the streams name as such, by their first corners
   Index umbrella_count = 0;
   Index vertex_count = 0;  ///< isolated vertices included: they come last
 

@@ -55,6 +55,8 @@ class Script {
     return true;
   }
 
+  Index original() const { return log_.original(); }
+
   [[gnu::always_inline]] FaceAnswer face(const FaceQuestion& question) {
     const FaceAnswer truth = oracle_.face();
     if (degrees_known_) return {question.closed ? question.known_edges : header_.uniform_degree, false};

@@ -38,12 +38,16 @@ class Partition {
 }  // namespace
 
 ValueGraph::ValueGraph(const Connectivity& mesh, Index site_count)
-    : site_count_(site_count), sites_(mesh.umbrellas), twins_(mesh.twins) {
+    : site_count_(site_count), sites_(mesh.umbrellas), twins_(mesh.twins), copies_(mesh.copies) {
   listShapes(mesh.face_degrees) ? findFirsts() : listFans();
 }
 
 ValueGraph::ValueGraph(const Connectivity& mesh, std::vector<Index> sites, Index site_count)
-    : site_count_(site_count), own_sites_(std::move(sites)), sites_(own_sites_), twins_(mesh.twins) {
+    : site_count_(site_count),
+      own_sites_(std::move(sites)),
+      sites_(own_sites_),
+      twins_(mesh.twins),
+      copies_(mesh.copies) {
   const bool all_round = listShapes(mesh.face_degrees), umbrellas = std::ranges::equal(sites_, mesh.umbrellas);
   if (umbrellas) {
     sites_ = mesh.umbrellas;

@@ -63,6 +63,9 @@ class ValueGraph {
   Index siteCount() const { return site_count_; }
   Index cornerCount() const { return static_cast<Index>(sites_.size()); }
 
+  /// The mesh's.
+  std::span<const ComponentCopy> copies() const { return copies_; }
+
   Index site(Index corner) const { return sites_[corner]; }
   /// As Connectivity::twins, but kNone where the far side has other sites.
   Index twin(Index corner) const { return twins_[corner]; }
@@ -121,9 +124,10 @@ class ValueGraph {
   Index site_count_;
   std::vector<Index> own_sites_, own_twins_;  // empty: the mesh's
   std::span<const Index> sites_, twins_;      // per corner
-  std::vector<uint32_t> shapes_;              // per corner; empty: all triangles
-  std::vector<Index> starts_;                 // per site where its fans begin in `fans_`, and where all end
-  std::vector<Index> fans_;  // site by site; empty: sites have one fan each, and `starts_` its first corner
+  std::span<const ComponentCopy> copies_;
+  std::vector<uint32_t> shapes_;  // per corner; empty: all triangles
+  std::vector<Index> starts_;     // per site where its fans begin in `fans_`, and where all end
+  std::vector<Index> fans_;       // site by site; empty: sites have one fan each, and `starts_` its first corner
 };
 
 /// The site of each wedge, numbered by the smallest wedge.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "codec/value_copies.h"
 #include "codec/value_echoes.h"
 #include "codec/value_graph.h"
 #include "codec/value_guides.h"
@@ -19,7 +20,7 @@ namespace tutte::values {
 
 /// Up to `C` components in numbers of type `T` (value_nodes.h). Values lie in [0, max]. With `tangent`, three
 /// components are points of a surface, and the third is corrected towards its tangent plane. With `echoes`, values may
-/// come again (value_echoes.h).
+/// come again (value_echoes.h), and with `copies`, components follow their originals (value_copies.h).
 template <class Port, int C, class T, class Guide>
 class SitePredictor {
  public:
@@ -28,6 +29,7 @@ class SitePredictor {
     int32_t max;
     bool tangent;
     bool echoes;
+    bool copies;
   };
 
   SitePredictor(Port& port, const ValueGraph& graph, std::span<const int32_t> places, const Options& options,
@@ -42,6 +44,7 @@ class SitePredictor {
         max_(options.max),
         tangent_(options.tangent) {
     if (options.echoes) echoes_.emplace(graph, nodes_, count_);
+    if (options.copies) copies_.emplace(graph, nodes_);
     picks_.fill(Chance(6160));
     tangents_.fill(2048);
   }
@@ -53,6 +56,7 @@ class SitePredictor {
     stencil_.gather(around, last_, tangent_);
     guide_.refine(around, stencil_);
     estimateScale();
+    if (copies_ && copies_->look(around.site, stencil_.base)) followOriginal();
     if constexpr (Port::kWriting) std::ranges::copy(value, wanted_.begin());
     if (!echo(around.site)) {
       pick();
@@ -63,6 +67,7 @@ class SitePredictor {
     nodes_.add({last_, errors_}, picked_);
     guide_.learn(around.site, last_);
     if (echoes_) echoes_->learn(around.site);
+    if (copies_) copies_->learn(last_);
     adaptTypicalError();
   }
 
@@ -107,6 +112,12 @@ class SitePredictor {
     }
     all_error_ = static_cast<int32_t>(width() == 3 ? sum * 21845 >> 16 : sum / width());
     if (count == 1) all_error_ = (all_error_ + typical_error_) >> 1;
+  }
+
+  void followOriginal() {
+    stencil_.replace(copies_->prediction());
+    all_error_ = std::min(copies_->scale(width()), kLargestError);
+    near_error_.fill(all_error_);
   }
 
   // One parallelogram instead of the average: explicit, where there are several.
@@ -278,6 +289,7 @@ class SitePredictor {
   Guide guide_;
   Residuals& residuals_;
   std::optional<Echoes<C>> echoes_;
+  std::optional<Copies<C, T>> copies_;
   std::array<Chance, 2 * 3 * 4 * 12> picks_;
   std::array<std::array<Chance, Stencil<C, T>::kMostMembers>, 3> indices_;
   std::array<int32_t, 16 * 3 * 2> tangents_;

@@ -44,6 +44,14 @@ class Stencil {
     member_count > 1 ? spreadOfMembers() : spread.fill(0);
   }
 
+  /// Replaces it by a prediction from elsewhere.
+  void replace(const Values& prediction) {
+    base = lean = prediction;
+    member_count = 0;
+    spread.fill(0);
+    normal.fill(0);
+  }
+
   Source source = Source::kLast;
   int member_count = 0;  ///< parallelograms, if `source` is one of the first two
   std::array<Values, kMostMembers> members;

@@ -47,7 +47,7 @@ struct Run {
     values::Residuals residuals(format.profile == ValueProfile::kSmall, format.profile == ValueProfile::kDefault);
     SitePredictor<Port, C, T, Guide> predictor(
         port, sites.graph, sites.places,
-        {format.components, format.max, format.kind == ValueKind::kPoints, format.echoes}, residuals);
+        {format.components, format.max, format.kind == ValueKind::kPoints, format.echoes, format.copies}, residuals);
     const Error error = everySite([&] { predictor.code(values); });
     if (error != Error::kNone) return error;
     return predictor.damaged() ? Error::kMalformed : Error::kNone;
@@ -158,7 +158,7 @@ bool supports(const ValueSites& sites, const ValueFormat& format) {
   const bool places = sites.places.size() == size_t{sites.graph.siteCount()} * 3;
   if (!places && !sites.places.empty()) return false;
   if (format.ranked && format.kind != ValueKind::kPlain && format.kind != ValueKind::kPoints) return false;
-  if (format.echoes && format.kind == ValueKind::kLabel) return false;
+  if ((format.echoes || format.copies) && format.kind == ValueKind::kLabel) return false;
   switch (format.kind) {
     case ValueKind::kPlain:
     case ValueKind::kLabel: return true;

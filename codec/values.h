@@ -36,6 +36,7 @@ struct ValueFormat {
   ValueKind kind = ValueKind::kPlain;
   bool ranked = false;  ///< (kPlain, kPoints) each component is one of a list: their ranks are coded
   bool echoes = false;  ///< (not kLabel) values may be those of earlier sites
+  bool copies = false;  ///< (not kLabel) components that repeat earlier ones are predicted from these
 };
 
 /// A mesh's sites, and where they are.

@@ -26,6 +26,7 @@ namespace tutte {
 
 /// Runs a script to a mesh. A Script offers
 ///   bool component()                       is there another component?
+///   Index original() const               the number of the one that it repeats, or kNone
 ///   FaceAnswer face(const FaceQuestion&)
 ///   VertexAnswer vertex(const VertexQuestion&)
 ///   SplitAnswer split(const VertexQuestion&, const Gaps&)
@@ -55,8 +56,10 @@ class Walk : public Boundary<Script> {
   Error run() {
     Error error = Error::kNone;
     while (error == Error::kNone && script_.component()) {
+      starts_.push_back(corners_.size());
       error = seed();
       for (bool more = true; more && error == Error::kNone;) more = attach(error);
+      noteCopy();
     }
     degrees_.finish();
     corners_.finish();
@@ -77,6 +80,11 @@ class Walk : public Boundary<Script> {
   using Base::become, Base::closeBoundary, Base::corners_, Base::emit, Base::emitKnown, Base::gaps_, Base::gather,
       Base::know, Base::leave, Base::mesh_, Base::pairLast, Base::pinched_, Base::requeue, Base::script_, Base::take,
       Base::umbrellas_, Base::use;
+
+  void noteCopy() {
+    const Index original = script_.original(), start = starts_.back();
+    if (original != kNone) mesh_.copies.push_back({start, starts_[original], corners_.size() - start});
+  }
 
   // The first face of a component. All its vertices are new.
   Error seed() {
@@ -259,6 +267,7 @@ class Walk : public Boundary<Script> {
   std::vector<Index> dummy_umbrellas_;
   std::vector<Index> last_face_;   // per umbrella, as far as there were splits: the last face with splits, plus 1
   std::vector<Segment> segments_;  // of the current face
+  std::vector<Index> starts_;      // of components: their first corners
   Index splits_ = 0;
 };
 

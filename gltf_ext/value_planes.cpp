@@ -11,26 +11,27 @@
 namespace tutte {
 namespace {
 
-// The first byte of a plane's stream: the profile in bits 0 and 1, the kind of its values in bits 2 to 4, then two
+// The first byte of a plane's stream: the profile in bits 0 and 1, the kind of its values in bits 2 to 4, then three
 // flags.
-constexpr uint8_t kProfileMask = 3, kKindMask = 7, kRanked = 32, kEchoes = 64;
+constexpr uint8_t kProfileMask = 3, kKindMask = 7, kRanked = 32, kEchoes = 64, kCopies = 128;
 constexpr int kKindShift = 2;
 
 uint8_t headOf(const ValueFormat& format) {
   return static_cast<uint8_t>(static_cast<int>(format.profile) | static_cast<int>(format.kind) << kKindShift |
-                              (format.ranked ? kRanked : 0) | (format.echoes ? kEchoes : 0));
+                              (format.ranked ? kRanked : 0) | (format.echoes ? kEchoes : 0) |
+                              (format.copies ? kCopies : 0));
 }
 
 std::optional<ValueFormat> formatOf(const Plane& plane, uint8_t head) {
   const int profile = head & kProfileMask, kind = head >> kKindShift & kKindMask;
   if (profile > static_cast<int>(ValueProfile::kSmall) || kind > static_cast<int>(ValueKind::kLabel)) return {};
-  if (head >= 2 * kEchoes) return {};
   return ValueFormat{plane.components,
                      plane.max,
                      static_cast<ValueProfile>(profile),
                      static_cast<ValueKind>(kind),
                      (head & kRanked) != 0,
-                     (head & kEchoes) != 0};
+                     (head & kEchoes) != 0,
+                     (head & kCopies) != 0};
 }
 
 /// The values per site; empty when wedges of one site differ.
@@ -119,6 +120,17 @@ bool repeats(std::span<const int32_t> values, size_t components) {
   return found * 64 >= values.size() / components;
 }
 
+/// A format, and with copies too; ranks do not move as values do, so that the usual format may be better then.
+std::vector<ValueFormat> withCopies(ValueFormat format, ValueFormat usual) {
+  std::vector<ValueFormat> formats;
+  for (ValueFormat copying : {format, usual}) {
+    copying.copies = true;
+    formats.push_back(copying);
+  }
+  formats.push_back(format);
+  return formats;
+}
+
 void writePlane(const ValueSites& sites, const Plane& plane, std::span<const int32_t> values, ValueProfile profile,
                 ByteWriter& out) {
   std::vector<ValueFormat> formats;
@@ -131,6 +143,7 @@ void writePlane(const ValueSites& sites, const Plane& plane, std::span<const int
     echoing.echoes = true;
     format = bestOf(sites, std::array{echoing, format}, values, kMostTried);
   }
+  if (!sites.graph.copies().empty()) format = bestOf(sites, withCopies(format, formats.front()), values, kNone);
   ByteWriter bytes;
   encodeValues(sites, format, values, bytes);
   out.byte(headOf(format));

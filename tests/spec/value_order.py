@@ -6,7 +6,7 @@ from models import clamp
 
 class Graph:
     def __init__(self, mesh, sites, site_count):
-        self.site, self.site_count, self.twin = sites, site_count, list(mesh.twins)
+        self.mesh, self.site, self.site_count, self.twin = mesh, sites, site_count, list(mesh.twins)
         self.next, self.prev, self.degree, corner = [], [], [], 0
         self.faces = []
         for degree in mesh.degrees:

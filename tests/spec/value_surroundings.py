@@ -77,6 +77,10 @@ class Surroundings:
             j, k = (i + 1) % 3, (i + 2) % 3
             self.normal[i] += u[j] * w[k] - u[k] * w[j]
 
+    def replace(self, prediction):
+        self.base = self.lean = prediction
+        self.members, self.spread, self.normal = [], [0] * self.m, [0, 0, 0]
+
     def settle(self, site):
         m, members = self.m, self.members
         self.spread = [0] * m

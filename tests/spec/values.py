@@ -3,6 +3,7 @@
 decode(mesh, sites, site_count, m, maximum, head, data, places) -> the numbers, m per site.
 """
 from models import clamp, require
+from value_copies import Copies
 from value_models import (Chances, Classes, Lengths, MixedChance, ValueStream, bit_length, cut, log4, varint)
 from value_echoes import Echoes
 from value_geometry import Directions, Textures
@@ -16,7 +17,7 @@ PLAIN, POINTS, TEXTURE, DIRECTION, LABEL = range(5)
 # D.4.7 Values
 
 class Coder:
-    def __init__(self, graph, m, maximum, kind, profile, echoes, stream, places):
+    def __init__(self, graph, m, maximum, kind, profile, echoes, copies, stream, places):
         self.graph, self.m, self.max, self.kind, self.stream = graph, m, maximum, kind, stream
         self.order, self.profile = Order(graph), profile
         self.values, self.errors, self.picked = {}, {}, {}
@@ -24,6 +25,7 @@ class Coder:
         self.picks, self.indices, self.gains = Chances(6160), Chances(), {}
         self.residuals = Lengths() if profile == SMALL else Classes(profile)
         self.echoes = Echoes(self) if echoes else None
+        self.copies = Copies(graph.mesh, graph.site, self.values, m == 3 and kind == POINTS) if copies else None
         self.guide = {TEXTURE: Textures, DIRECTION: Directions}.get(kind, lambda *_: None)(self, places)
 
     def run(self):
@@ -38,6 +40,10 @@ class Coder:
         if self.guide:
             self.guide.refine(site, around)
         self.scale(around)
+        if self.copies and (prediction := self.copies.look(site, around.base)):
+            around.replace(prediction)
+            self.all = self.copies.scale(self.m)
+            self.near = [self.all] * self.m
         earlier = self.echoes.read(self.stream, site, bool(around.neighbours)) if self.echoes else None
         if earlier is None:
             value, errors, picked = self.components(around, *self.pick(around))
@@ -49,6 +55,8 @@ class Coder:
             self.guide.learn(site, value)
         if self.echoes:
             self.echoes.learn(site)
+        if self.copies:
+            self.copies.learn(value)
         now = min(sum(errors) // self.m, 4 * self.typical)
         self.typical = max(self.typical + (now - self.typical >> 5), 16)
 
@@ -180,8 +188,8 @@ def labels(graph, count, stream):
 # D.4.1 Streams
 
 def decode(mesh, sites, site_count, m, maximum, head, data, places):
-    profile, kind, ranked, echoes = head & 3, head >> 2 & 7, head >> 5 & 1, head >> 6 & 1
-    require(head < 128 and profile <= SMALL and kind <= LABEL, 'head')
+    profile, kind, ranked, echoes, copies = head & 3, head >> 2 & 7, head >> 5 & 1, head >> 6 & 1, head >> 7
+    require(profile <= SMALL and kind <= LABEL, 'head')
     graph, at = Graph(mesh, sites, site_count), 0
     if kind == LABEL:
         return read_labels(graph, m, maximum, data)
@@ -190,7 +198,7 @@ def decode(mesh, sites, site_count, m, maximum, head, data, places):
         lists, at = read_ranks(data, m, maximum)
         maximum = max(len(ranks) for ranks in lists) - 1
     stream = ValueStream(data, at)
-    values = Coder(graph, m, maximum, kind, profile, echoes, stream, places).run()
+    values = Coder(graph, m, maximum, kind, profile, echoes, copies, stream, places).run()
     stream.finish()
     if not lists:
         return values

@@ -91,6 +91,10 @@ class ValueVectors {
       write({2, 1022, profile, ValueKind::kLabel}, 1);
       write({1, (1 << 27) - 1, profile, ValueKind::kPlain}, 1 << 26);
       write({4, 255, profile, ValueKind::kPlain, true, true}, 2);
+      write({3, 4095, profile, ValueKind::kPoints, false, false, true}, 3);
+      write({3, (1 << 20) - 1, profile, ValueKind::kPoints, false, false, true}, 3000);
+      write({2, 4095, profile, ValueKind::kTexcoord, false, true, true}, 3);
+      write({1, 255, profile, ValueKind::kPlain, true, false, true}, 2);
       write({4, 255, profile, ValueKind::kPlain}, 2);
     }
   }
@@ -105,7 +109,7 @@ class ValueVectors {
     if (!encodeValues(sites, format, numbers, bytes)) return;
     out_ << format.components << ' ' << format.max << ' '
          << static_cast<int>(format.profile) + 4 * static_cast<int>(format.kind) + 32 * format.ranked +
-                64 * format.echoes
+                64 * format.echoes + 128 * format.copies
          << ' ' << std::hex;
     for (const uint8_t byte : bytes.bytes()) out_ << byte / 16 << byte % 16;
     out_ << std::dec << ' ';

@@ -6,6 +6,7 @@ from symbol_statistics import Mixed, Paper
 class Mesh:
     def __init__(self):
         self.degrees, self.umbrellas, self.twins = [], [], []
+        self.copies = []  # of components: first corner, first corner of the original, number of corners
         self.umbrella_count = 0
         self.vertices, self.vertex_count = [], 0
         self.flipped = []
@@ -63,10 +64,15 @@ class Walk:
         self.split_read = False
 
     def run(self):
+        starts = []
         while self.symbols.component():
+            starts.append(len(self.mesh.umbrellas))
             self.seed()
             while (start := self.first()) is not None:
                 self.attach(start)
+            if self.symbols.original is not None:
+                original = starts[self.symbols.original]
+                self.mesh.copies.append((starts[-1], original, len(self.mesh.umbrellas) - starts[-1]))
         return self.mesh
 
     def new_gap(self, gap):
@@ -291,13 +297,15 @@ class Symbols:
         self.first = [[Bit() for _ in range(5)] for _ in range(2)]
         self.copy, self.rank = Bit(), Number()
         self.log, self.recent, self.replayed = [], [], None
+        self.components, self.original = 0, None
 
     def component(self):
         if not self.component_model.read(self.valences):
             return False
-        self.replayed = None
+        self.replayed = self.original = None
         if self.section.copies:
             self.begin_copy()
+        self.components += 1
         return True
 
     def begin_copy(self):
@@ -305,9 +313,9 @@ class Symbols:
             rank = self.rank.read(self.valences)
             require(rank < len(self.recent), 'a copy of no component')
             self.recent.insert(0, self.recent.pop(rank))
-            self.replayed = self.recent[0]
+            self.original, self.replayed = self.recent[0]
         else:
-            self.recent = [len(self.log)] + self.recent[:63]
+            self.recent = [(self.components, len(self.log))] + self.recent[:63]
 
     def coded(self, read):
         """A symbol: from the component that is repeated, or read and remembered."""
