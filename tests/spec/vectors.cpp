@@ -38,10 +38,13 @@ bool writeVector(const std::filesystem::path& folder, const shapes::Named& named
                  const EncodeOptions& options) {
   const Result<Encoded> encoded = encode(named.shape.mesh, options);
   if (!encoded) return false;
+  // What is written is what decodes, here too: so all platforms whose vectors are equal decode alike.
+  const Result<Connectivity> decoded = decode(encoded->bytes);
+  if (!decoded) return false;
   std::ofstream section(folder / (named.name + suffix + ".section"), std::ios::binary);
   for (uint8_t byte : encoded->bytes) section.put(static_cast<char>(byte));
   std::ofstream mesh(folder / (named.name + suffix + ".mesh"));
-  describe(encoded->connectivity, mesh);
+  describe(*decoded, mesh);
   return section.good() && mesh.good();
 }
 
@@ -107,6 +110,8 @@ class ValueVectors {
     ByteWriter bytes;
     const ValueSites sites{graph, placed ? std::span<const int32_t>(places_) : std::span<const int32_t>()};
     if (!encodeValues(sites, format, numbers, bytes)) return;
+    const Result<std::vector<int32_t>> decoded = decodeValues(sites, format, bytes.bytes());
+    if (!decoded || *decoded != numbers) out_.setstate(std::ios::failbit);
     out_ << format.components << ' ' << format.max << ' '
          << static_cast<int>(format.profile) + 4 * static_cast<int>(format.kind) + 32 * format.ranked +
                 64 * format.echoes + 128 * format.copies
