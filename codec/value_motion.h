@@ -28,7 +28,7 @@ class Motion {
   }
 
   /// A value of the original, and the copy's.
-  void learn(const Vec<C, int32_t>& from, const Vec<C, int32_t>& to) {
+  void learn(const Vec<C, int32_t>& from, const Vec<C, int32_t>& to, bool /*turns*/) {
     if (known_) return;
     from_ = from;
     to_ = to;
@@ -40,33 +40,35 @@ class Motion {
   Vec<C, int32_t> from_{}, to_{};
 };
 
-/// Points of space may also be turned and stretched. Points are below 2^20.
+/// Points of space, whose fourth component is not used, may also be turned and stretched. They are below 2^20.
 template <>
-class Motion<3> {
+class Motion<4> {
  public:
   bool known() const { return known_; }
 
   template <class T>
-  Vec<3, T> applied(const Vec<3, int32_t>& point) const {
+  Vec<4, T> applied(const Vec<4, int32_t>& point) const {
+    Vec<4, T> image{};
+    for (size_t i = 0; i < 4; ++i) image[i] = (T{to_[i]} + point[i] - from_[i]) * (T{1} << kFraction);
+    if (!solved_) return image;
     const Vector3 d = difference(point, from_);
-    Vec<3, T> image{};
     for (int i = 0; i < 3; ++i) {
-      int64_t moved = d[i] << kFraction;
-      if (solved_) {
-        moved = (rows_[i][0] * d[0] + rows_[i][1] * d[1] + rows_[i][2] * d[2]) >> (kBits - kFraction + shift_);
-      }
-      image[i] = static_cast<T>(std::clamp<int64_t>((int64_t{to_[i]} << kFraction) + moved, -kLimit, kLimit));
+      const int64_t turned = rows_[i][0] * d[0] + rows_[i][1] * d[1] + rows_[i][2] * d[2];
+      const int64_t place = (int64_t{to_[i]} << kFraction) + (turned >> (kBits - kFraction + shift_));
+      image[i] = static_cast<T>(std::clamp<int64_t>(place, -kLimit, kLimit));
     }
     return image;
   }
 
-  void learn(const Vec<3, int32_t>& from, const Vec<3, int32_t>& to) {
+  /// `turns`: not only moved.
+  void learn(const Vec<4, int32_t>& from, const Vec<4, int32_t>& to, bool turns) {
     if (!known_) {
       from_ = from;
       to_ = to;
       known_ = true;
       return;
     }
+    if (!turns) return;
     const Pair pair{difference(from, from_), difference(to, to_)};
     const bool changed = extend(pair), turned_before = turned_;
     for (int i = 0; i < 3; ++i) turned_ |= std::abs(pair.from[i] - pair.to[i]) > kRounding;
@@ -83,7 +85,7 @@ class Motion<3> {
     Vector3 from, to;
   };
 
-  static Vector3 difference(const Vec<3, int32_t>& a, const Vec<3, int32_t>& b) {
+  static Vector3 difference(const Vec<4, int32_t>& a, const Vec<4, int32_t>& b) {
     return {int64_t{a[0]} - b[0], int64_t{a[1]} - b[1], int64_t{a[2]} - b[2]};
   }
 
@@ -177,7 +179,7 @@ class Motion<3> {
   }
 
   bool known_ = false, turned_ = false, solved_ = false;
-  Vec<3, int32_t> from_{}, to_{};  // the first point of both
+  Vec<4, int32_t> from_{}, to_{};  // the first point of both
   std::array<Pair, 3> basis_{};
   int count_ = 0, shift_ = 0;
   int64_t span_ = 0;

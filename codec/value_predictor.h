@@ -44,7 +44,7 @@ class SitePredictor {
         max_(options.max),
         tangent_(options.tangent) {
     if (options.echoes) echoes_.emplace(graph, nodes_, count_);
-    if (options.copies) copies_.emplace(graph, nodes_);
+    if (options.copies) copies_.emplace(graph, nodes_, tangent_);
     picks_.fill(Chance(6160));
     tangents_.fill(2048);
   }
