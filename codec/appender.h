@@ -9,10 +9,12 @@
 
 namespace tutte {
 
+inline constexpr size_t kLeastBlock = 64;
+
 /// Makes a vector longer by a block: as much as its room allows, but no more than what fits into a cache.
 inline void growByBlock(std::vector<Index>& vector, Index fill) {
-  constexpr size_t kLeast = 64, kMost = 4096;
-  vector.resize(std::max(vector.size() + kLeast, std::min(vector.size() + kMost, vector.capacity())), fill);
+  constexpr size_t kMost = 4096;
+  vector.resize(std::max(vector.size() + kLeastBlock, std::min(vector.size() + kMost, vector.capacity())), fill);
 }
 
 /// Appends to a vector that somebody else owns, which is longer than what was added until finish().
@@ -46,8 +48,9 @@ class Appender {
 class CornerAppender {
  public:
   CornerAppender(Connectivity& mesh, size_t expected) : mesh_(mesh) {
-    mesh.umbrellas.reserve(expected);
-    mesh.twins.reserve(expected);
+    // With room behind the last ones, too, or the vectors would become twice as long for it.
+    mesh.umbrellas.reserve(expected + kLeastBlock);
+    mesh.twins.reserve(expected + kLeastBlock);
   }
 
   /// `corners` elements, those that were not written included. New twins are kNone. May move the arrays.
