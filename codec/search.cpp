@@ -108,25 +108,8 @@ class Search {
   void attempt(Candidate candidate) {
     if (trials_left_ == 0) return;
     --trials_left_;
-    if (!looksBetter(candidate)) return;
     Result<WalkedCandidate> walked = walkCandidate(topologies_, candidate);
-    if (!walked || walked->bits() >= best_.bits()) return;
-    keep(std::move(candidate), std::move(*walked));
-    best_estimate_ = estimate_;
-  }
-
-  // Where decisions are expensive, few candidates are coded with them: those that take fewer bits in profile fast.
-  bool looksBetter(const Candidate& candidate) {
-    if (profile_ != Profile::kSmall) return true;
-    if (best_estimate_ == 0) best_estimate_ = estimate(best_candidate_);
-    estimate_ = estimate(candidate);
-    return estimate_ < best_estimate_;
-  }
-
-  size_t estimate(Candidate candidate) {
-    candidate.header.profile = Profile::kFast;
-    const Result<WalkedCandidate> walked = walkCandidate(topologies_, candidate);
-    return walked ? walked->bits() : kNone;
+    if (walked && walked->bits() < best_.bits()) keep(std::move(candidate), std::move(*walked));
   }
 
   void tryVariants() {
@@ -175,7 +158,6 @@ class Search {
   const EncodeOptions& options_;
   Profile profile_ = Profile::kDefault;
   size_t trials_left_ = 0;
-  size_t best_estimate_ = 0, estimate_ = 0;  // of the best candidate and the last one, in profile fast
   Candidate best_candidate_;
   WalkedCandidate best_;
 };
