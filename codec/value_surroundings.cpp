@@ -52,6 +52,18 @@ template <class Faces>
   }
 }
 
+[[gnu::always_inline]] inline void SurroundingsFinder::visitQuad(const AnyFaces& faces, Index corner, Side& a,
+                                                                 Side& b) {
+  const Index site = graph_.site(faces.next(faces.next(corner))), c = order_.rank(site);
+  const bool know_c = SiteOrder::isRank(c);
+  const int others = a.known() + b.known() + know_c;
+  const Index amount = others == 2 ? 16 : others == 1 ? 2 : 0;
+  a.urgency += amount;
+  b.urgency += amount;
+  urgencies_.add(site, amount, !know_c & (others == 2));
+  lists_->within.add({a.rank, b.rank, c, c}, others == 3);
+}
+
 // Faces and sides take turns: face i lies between the sides i and i + 1.
 template <class Faces>
 [[gnu::always_inline]] inline void SurroundingsFinder::visitFan(const Faces& faces, std::span<const Index> fan,
@@ -101,17 +113,6 @@ template <class Faces>
   lists_->across.add({a.rank, b.rank, x, y}, SiteOrder::isRank(x | y));
 }
 
-void SurroundingsFinder::visitQuad(const AnyFaces& faces, Index corner, Side& a, Side& b) {
-  const Index site = graph_.site(faces.next(faces.next(corner))), c = order_.rank(site);
-  const bool know_c = SiteOrder::isRank(c);
-  const int others = a.known() + b.known() + know_c;
-  const Index amount = others == 2 ? 16 : others == 1 ? 2 : 0;
-  a.urgency += amount;
-  b.urgency += amount;
-  urgencies_.add(site, amount, !know_c & (others == 2));
-  lists_->within.add({a.rank, b.rank, c, c}, others == 3);
-}
-
 // A regular polygon's diagonal over three sides is parallel to the middle one.
 void SurroundingsFinder::visitPolygon(const AnyFaces& faces, Index corner, Side& a, Side& b) {
   const Index next2 = faces.next(faces.next(corner)), prev2 = faces.prev(faces.prev(corner));
@@ -145,6 +146,18 @@ template <class Faces>
   }
 }
 
+// The face beyond the edge from a (the neighbour) to c: y lies beyond a, x beyond c.
+[[gnu::always_inline]] inline void SurroundingsFinder::lookFar(Index a, Index c, Index beyond_a, Index beyond_c,
+                                                               Index degree) {
+  const Index rank_a = order_.rank(a);
+  if (!SiteOrder::isRank(rank_a)) return;
+  const Index rank_c = order_.rank(c);
+  const Index x = order_.rank(graph_.site(beyond_c)), y = order_.rank(graph_.site(beyond_a));
+  const bool over = SiteOrder::isRank(rank_c | x), straight = SiteOrder::isRank(y) & (degree > 3);
+  lists_->over.add({rank_a, rank_c, x, degree == 3}, over && lists_->over.size() < kMostFar);
+  lists_->straight.add({rank_a, rank_a, y, 0}, straight && lists_->straight.size() < kMostFar);
+}
+
 // Over the edges that are opposite or beside; weaker than what is within.
 void SurroundingsFinder::lookFar(const AnyFaces& faces, Index corner) {
   if (faces.degree(corner) <= 3) return;
@@ -158,17 +171,6 @@ void SurroundingsFinder::lookFar(const AnyFaces& faces, Index corner) {
     lookFar(graph_.site(prev), graph_.site(prev2), faces.prev(beyond_prev), faces.next(faces.next(beyond_prev)),
             faces.degree(beyond_prev));
   }
-}
-
-// The face beyond the edge from a (the neighbour) to c: y lies beyond a, x beyond c.
-void SurroundingsFinder::lookFar(Index a, Index c, Index beyond_a, Index beyond_c, Index degree) {
-  const Index rank_a = order_.rank(a);
-  if (!SiteOrder::isRank(rank_a)) return;
-  const Index rank_c = order_.rank(c);
-  const Index x = order_.rank(graph_.site(beyond_c)), y = order_.rank(graph_.site(beyond_a));
-  const bool over = SiteOrder::isRank(rank_c | x), straight = SiteOrder::isRank(y) & (degree > 3);
-  lists_->over.add({rank_a, rank_c, x, degree == 3}, over && lists_->over.size() < kMostFar);
-  lists_->straight.add({rank_a, rank_a, y, 0}, straight && lists_->straight.size() < kMostFar);
 }
 
 }  // namespace tutte::values
