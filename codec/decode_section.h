@@ -25,8 +25,11 @@ inline Limits walkLimits(const SectionHeader& header, const Limits& limits) {
   return {kNone, limits.max_corners, corners};
 }
 
-// Room for the corners of an irregular mesh. A regular mesh has more, but what a few bytes claim must not cost much.
+// Room for the corners: as many as the limits allow, where that is no great loss; payloads state their counts.
+// Otherwise those of an irregular mesh: a regular mesh has more, but what a few bytes claim must not cost much.
 inline size_t expectedCorners(const SectionStreams& streams, const Limits& limits) {
+  constexpr size_t kModest = size_t{1} << 21;
+  if (limits.max_corners <= kModest) return limits.max_corners;
   return std::min<size_t>(limits.max_corners, 4096 + 64 * (streams.valences.size() + streams.degrees.size()));
 }
 

@@ -18,6 +18,12 @@
 namespace tutte {
 namespace {
 
+// What a payload tells the connectivity's decoder before it begins.
+Limits sizeOf(const Polygons& polygons) {
+  return {polygons.vertex_count, static_cast<Index>(polygons.face_degrees.size()),
+          static_cast<Index>(polygons.corners.size())};
+}
+
 constexpr int kMostRounds = 10;
 
 /// What `step` returns, and the least time that it took so far. A time of 0: none yet.
@@ -50,7 +56,7 @@ class OurCoder {
     figures_.decode_peak_bytes = meter.peakBytes();
     const Result<PayloadView> view = parsePayload(packed_.bytes);
     const auto section = (*view)[Section::kConnectivity];
-    const auto decoded = timed(figures_.connectivity_decode_seconds, [&] { return decode(section); });
+    const auto decoded = timed(figures_.connectivity_decode_seconds, [&] { return decode(section, sizeOf(polygons)); });
     if (!decoded) return failureOf(decoded.error(), "connectivity");
     return Done{};
   }
@@ -86,7 +92,7 @@ Outcome<Done> runProfile(const PolygonMesh& mesh, EncodeOptions options, Profile
   options.profile = profile;
   const Result<Encoded> encoded = timed(figures.encode_seconds, [&] { return encode(mesh.polygons, options); });
   if (!encoded) return failureOf(encoded.error(), "connectivity");
-  const auto decoded = timed(figures.decode_seconds, [&] { return decode(encoded->bytes); });
+  const auto decoded = timed(figures.decode_seconds, [&] { return decode(encoded->bytes, sizeOf(mesh.polygons)); });
   if (!decoded) return failureOf(decoded.error(), "connectivity");
   figures.valence_bytes = encoded->valence_bytes;
   figures.degree_bytes = encoded->degree_bytes;
