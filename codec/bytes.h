@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "codec/made_table.h"
 #include "codec/result.h"
 
 namespace tutte {
@@ -14,7 +15,7 @@ namespace tutte {
 namespace detail {
 
 // The reflected polynomial of IEEE 802.3.
-inline constexpr std::array<uint32_t, 256> kCrcTable = [] {
+TUTTE_TABLE std::array<uint32_t, 256> kCrcTable = madeTable([] {
   std::array<uint32_t, 256> table{};
   for (uint32_t i = 0; i < 256; ++i) {
     uint32_t crc = i;
@@ -22,7 +23,7 @@ inline constexpr std::array<uint32_t, 256> kCrcTable = [] {
     table[i] = crc;
   }
   return table;
-}();
+});
 
 }  // namespace detail
 

@@ -36,13 +36,18 @@ inline bool isSpan(const void* data, size_t count, size_t size) {
 }
 
 /// Whether the system would give that much. It is given back at once; `volatile` keeps compilers, which may assume that
-/// memory is endless, from leaving out the question.
+/// memory is endless, from leaving out the question. WebAssembly's memory cannot be given back, so there it is only
+/// asked how much it may grow.
 inline bool canAllocate(uint64_t bytes) {
+#if defined(__wasm__)
+  return bytes <= (uint64_t{65536} - __builtin_wasm_memory_size(0)) * 65536;
+#else
   if (bytes > static_cast<uint64_t>(std::numeric_limits<ptrdiff_t>::max())) return false;
   void* volatile const memory = std::malloc(static_cast<size_t>(bytes));
   const bool given = memory != nullptr;
   std::free(memory);
   return given;
+#endif
 }
 
 }  // namespace tutte

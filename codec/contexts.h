@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "codec/gaps.h"
+#include "codec/made_table.h"
 #include "codec/walk.h"
 
 namespace tutte {
@@ -24,18 +25,18 @@ struct History {
 };
 
 /// kSides[angle >> 6]: see sidesOf.
-inline constexpr std::array<uint8_t, 1024> kSides = [] {
+TUTTE_TABLE std::array<uint8_t, 1024> kSides = madeTable([] {
   std::array<uint8_t, 1024> sides{};
   for (int part = 0; part < 1024; ++part) sides[part] = static_cast<uint8_t>(std::min(30, 4096 / (1024 - part)));
   return sides;
-}();
+});
 
 /// 2^32 / n, rounded up.
-inline constexpr std::array<uint64_t, 64> kInverse = [] {
+TUTTE_TABLE std::array<uint64_t, 64> kInverse = madeTable([] {
   std::array<uint64_t, 64> inverse{};
   for (uint64_t n = 1; n < 64; ++n) inverse[n] = ((uint64_t{1} << 32) + n - 1) / n;
   return inverse;
-}();
+});
 
 /// Sides of the regular polygon whose angle is the `parts`-th part of what `angle`, at most 131072, lacks to a whole
 /// turn (1 - 2 / sides, in 1/65536), in half steps, at most 30.

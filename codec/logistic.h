@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include "codec/made_table.h"
+
 namespace tutte {
 namespace logistic {
 
@@ -15,7 +17,7 @@ struct Decay {
   std::array<uint64_t, kDomain / 2> whole{}, half{};
 };
 
-inline constexpr Decay kDecay = [] {
+TUTTE_TABLE Decay kDecay = madeTable([] {
   constexpr uint64_t kStep = 4584638084353230594u;      // exp(-1 / 170) * 2^62
   constexpr uint64_t kHalfStep = 4598142163217826931u;  // exp(-1 / 340) * 2^62
   const auto times = [](uint64_t a, uint64_t b) {       // a * b / 2^62, for factors below 2^63
@@ -30,10 +32,10 @@ inline constexpr Decay kDecay = [] {
     power = times(power, kStep);
   }
   return decay;
-}();
+});
 
 /// squash[s + 2048] = 65536 / (1 + exp(-s / 170)), from 1 to 65535.
-inline constexpr std::array<uint16_t, kDomain> kSquash = [] {
+TUTTE_TABLE std::array<uint16_t, kDomain> kSquash = madeTable([] {
   std::array<uint16_t, kDomain> table{};
   constexpr uint64_t kOne = uint64_t{1} << 48;
   for (int k = 0; k < kDomain / 2; ++k) {
@@ -43,10 +45,10 @@ inline constexpr std::array<uint16_t, kDomain> kSquash = [] {
   }
   table[0] = 1;
   return table;
-}();
+});
 
 /// stretch4[p >> 4] = 4 * round(170 ln(p / (65536 - p))), for the middle of each interval of 16.
-inline constexpr std::array<int16_t, kDomain> kStretch4 = [] {
+TUTTE_TABLE std::array<int16_t, kDomain> kStretch4 = madeTable([] {
   std::array<int16_t, kDomain> table{};
   int steps = kDomain / 2 - 1;  // falls as p rises to one half
   for (int i = 0; i < kDomain / 2; ++i) {
@@ -56,7 +58,7 @@ inline constexpr std::array<int16_t, kDomain> kStretch4 = [] {
     table[kDomain - 1 - i] = static_cast<int16_t>(4 * steps);
   }
   return table;
-}();
+});
 
 }  // namespace logistic
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "codec/made_table.h"
 #include "codec/mesh.h"
 #include "codec/range_coder.h"
 
@@ -30,11 +31,11 @@ class Bit {
 
  private:
   // 65536 / (n + 1.9), as integers.
-  static constexpr std::array<int32_t, 256> kRate = [] {
+  static TUTTE_TABLE std::array<int32_t, 256> kRate = madeTable([] {
     std::array<int32_t, 256> rate{};
     for (int n = 0; n < 256; ++n) rate[n] = 655360 / (10 * n + 19);
     return rate;
-  }();
+  });
 
   uint16_t one_ = 32768;
   uint16_t seen_ = 0;

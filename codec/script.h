@@ -12,6 +12,7 @@
 #include "codec/result.h"
 #include "codec/section.h"
 #include "codec/split_coder.h"
+#include "codec/statistics_any.h"
 #include "codec/statistics_mixed.h"
 #include "codec/statistics_paper.h"
 #include "codec/walk.h"
@@ -154,12 +155,17 @@ class Script {
 /// Runs `use` with the statistics class that the header names, as a type: use(std::type_identity<Statistics>).
 template <class Use>
 auto withStatistics(const SectionHeader& header, Use&& use) {
+#if defined(TUTTE_COMPACT)
+  (void)header;
+  return use(std::type_identity<AnyStatistics>());
+#else
   switch (header.profile) {
-    case Profile::kFast: return use(std::type_identity<MixedStatistics<FastProfile>>());
-    case Profile::kDefault: return use(std::type_identity<MixedStatistics<DefaultProfile>>());
-    case Profile::kSmall: return use(std::type_identity<MixedStatistics<SmallProfile>>());
+    case Profile::kFast: return use(std::type_identity<MixedStatistics<FastProfile> >());
+    case Profile::kDefault: return use(std::type_identity<MixedStatistics<DefaultProfile> >());
+    case Profile::kSmall: return use(std::type_identity<MixedStatistics<SmallProfile> >());
     default: return use(std::type_identity<PaperStatistics>());
   }
+#endif
 }
 
 }  // namespace tutte

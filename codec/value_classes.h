@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "codec/made_table.h"
 #include "codec/value_expectation.h"
 #include "codec/value_lanes.h"
 #include "codec/value_model.h"
@@ -37,7 +38,7 @@ class Habits {
   static constexpr int kLeast = 3;
 
   // Where distributions go if only one symbol is seen: every other one keeps a little.
-  static constexpr std::array<Distribution, kSymbols> kTargets = [] {
+  static TUTTE_TABLE std::array<Distribution, kSymbols> kTargets = madeTable([] {
     std::array<Distribution, kSymbols> targets{};
     for (int symbol = 0; symbol < kSymbols; ++symbol) {
       for (int i = 0; i < kSymbols - 1; ++i) {
@@ -46,13 +47,13 @@ class Habits {
       }
     }
     return targets;
-  }();
+  });
 
-  static constexpr std::array<int32_t, kLimit + 1> kRates = [] {
+  static TUTTE_TABLE std::array<int32_t, kLimit + 1> kRates = madeTable([] {
     std::array<int32_t, kLimit + 1> rates{};
     for (uint32_t n = 0; n <= kLimit; ++n) rates[n] = static_cast<int32_t>(655360 / (10 * n + 160));
     return rates;
-  }();
+  });
 
   std::vector<Distribution> distributions_;
   std::vector<uint8_t> seen_;  // how many symbols, at most kLimit
@@ -73,7 +74,7 @@ inline constexpr uint32_t kScales = 32;
 
 /// What is expected before anything was seen: sizes m or larger have the probability (4 s / (4 s + m - 1/2))^4, s being
 /// the expected size.
-inline constexpr std::array<Distribution, kScales> kPriors = [] {
+TUTTE_TABLE std::array<Distribution, kScales> kPriors = madeTable([] {
   std::array<Distribution, kScales> priors{};
   uint64_t power = 84990;  // 2^((2 scale + 3/2) / 4), in 1/65536
   for (uint32_t scale = 0; scale < kScales; ++scale) {
@@ -94,7 +95,7 @@ inline constexpr std::array<Distribution, kScales> kPriors = [] {
     power = power * 92682 >> 16;
   }
   return priors;
-}();
+});
 
 /// One context (`two` false) or two. Few habits, because small meshes visit each of them seldom.
 class ClassCoder {

@@ -7,6 +7,8 @@
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
 #endif
 
 namespace tutte::values {
@@ -68,6 +70,57 @@ inline void blend(const Distribution& a, const Distribution& b, int32_t share, D
     const __m128i from = lanes::load(&a.above[i]);
     const __m128i step = _mm_mulhi_epi16(_mm_sub_epi16(lanes::load(&b.above[i]), from), factor);
     lanes::store(&out.above[i], _mm_add_epi16(from, step));
+  }
+}
+
+#elif defined(__wasm_simd128__)
+
+namespace lanes {
+inline v128_t load(const uint16_t* from) { return wasm_v128_load(from); }
+inline void store(uint16_t* to, v128_t value) { wasm_v128_store(to, value); }
+
+// The upper halves of products of lanes.
+inline v128_t highUnsigned(v128_t a, v128_t b) {
+  return wasm_i16x8_shuffle(wasm_u32x4_extmul_low_u16x8(a, b), wasm_u32x4_extmul_high_u16x8(a, b), 1, 3, 5, 7, 9, 11,
+                            13, 15);
+}
+inline v128_t highSigned(v128_t a, v128_t b) {
+  return wasm_i16x8_shuffle(wasm_i32x4_extmul_low_i16x8(a, b), wasm_i32x4_extmul_high_i16x8(a, b), 1, 3, 5, 7, 9, 11,
+                            13, 15);
+}
+inline v128_t towards(v128_t from, const uint16_t* to, v128_t factor) {
+  return wasm_i16x8_add(from, highSigned(wasm_i16x8_sub(load(to), from), factor));
+}
+}  // namespace lanes
+
+inline void divide(const Distribution& distribution, uint32_t range, Thresholds& out) {
+  const v128_t factor = wasm_i16x8_splat(static_cast<int16_t>(range));
+  out.lane[kSymbols - 1] = static_cast<uint16_t>(range);
+  for (int i = 0; i < kSymbols; i += 8) {
+    const v128_t twice = wasm_i16x8_shl(lanes::load(&distribution.above[i]), 1);
+    lanes::store(&out.lane[kSymbols + i], lanes::highUnsigned(twice, factor));
+  }
+}
+
+inline int find(const Thresholds& thresholds, uint32_t position) {
+  const v128_t here = wasm_i16x8_splat(static_cast<int16_t>(position));
+  const v128_t low = wasm_u16x8_le(lanes::load(&thresholds.lane[16]), here);
+  const v128_t high = wasm_u16x8_le(lanes::load(&thresholds.lane[24]), here);
+  return std::countr_zero(static_cast<uint32_t>(wasm_i8x16_bitmask(wasm_i8x16_narrow_i16x8(low, high))));
+}
+
+inline void approach(Distribution& distribution, const Distribution& target, int32_t rate) {
+  const v128_t factor = wasm_i16x8_splat(static_cast<int16_t>(rate));
+  for (int i = 0; i < kSymbols; i += 8) {
+    const v128_t now = lanes::load(&distribution.above[i]);
+    lanes::store(&distribution.above[i], lanes::towards(now, &target.above[i], factor));
+  }
+}
+
+inline void blend(const Distribution& a, const Distribution& b, int32_t share, Distribution& out) {
+  const v128_t factor = wasm_i16x8_splat(static_cast<int16_t>(share));
+  for (int i = 0; i < kSymbols; i += 8) {
+    lanes::store(&out.above[i], lanes::towards(lanes::load(&a.above[i]), &b.above[i], factor));
   }
 }
 

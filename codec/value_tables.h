@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "codec/made_table.h"
+
 namespace tutte::values {
 
 /// Predictions carry four binary digits behind the point.
@@ -12,7 +14,7 @@ inline constexpr int kFraction = 4;
 
 /// The logistic curve in a table: kSquash[x + 2048] = 65536 / (1 + e^(-x / 256)), within [1, 65535].
 inline constexpr int32_t kStretchLimit = 2047;
-inline constexpr std::array<uint16_t, 4096> kSquash = [] {
+TUTTE_TABLE std::array<uint16_t, 4096> kSquash = madeTable([] {
   std::array<uint16_t, 4096> table{};
   // e^(-k / 256) with 31 binary digits, from e^(-1 / 256) = 2139111403 / 2^31.
   uint64_t power = uint64_t{1} << 31;
@@ -24,10 +26,10 @@ inline constexpr std::array<uint16_t, 4096> kSquash = [] {
     power = (power * 2139111403u + (uint64_t{1} << 30)) >> 31;
   }
   return table;
-}();
+});
 
 /// Its inverse: kStretch[p >> 4] for a probability p of 16 bits.
-inline constexpr std::array<int16_t, 4096> kStretch = [] {
+TUTTE_TABLE std::array<int16_t, 4096> kStretch = madeTable([] {
   std::array<int16_t, 4096> table{};
   uint32_t x = 1;
   for (uint32_t i = 0; i < 4096; ++i) {
@@ -35,28 +37,28 @@ inline constexpr std::array<int16_t, 4096> kStretch = [] {
     table[i] = static_cast<int16_t>(static_cast<int32_t>(x) - 2048);
   }
   return table;
-}();
+});
 
 /// How far a probability moves at its n-th observation: 65536 / (n + 1.6).
-inline constexpr std::array<uint16_t, 256> kAdaptation = [] {
+TUTTE_TABLE std::array<uint16_t, 256> kAdaptation = madeTable([] {
   std::array<uint16_t, 256> table{};
   for (uint32_t n = 0; n < 256; ++n) table[n] = static_cast<uint16_t>(655360 / (10 * n + 16));
   return table;
-}();
+});
 
 /// How far a probability of n observations is trusted by the mixer, of 256.
-inline constexpr std::array<uint16_t, 256> kConfidence = [] {
+TUTTE_TABLE std::array<uint16_t, 256> kConfidence = madeTable([] {
   std::array<uint16_t, 256> table{};
   for (uint32_t n = 0; n < 256; ++n) table[n] = static_cast<uint16_t>(n >= 5 ? 256 : 256 * (10 * n + 4) / 50);
   return table;
-}();
+});
 
 /// kReciprocal[n] = 65536 / n, rounded.
-inline constexpr std::array<uint32_t, 256> kReciprocal = [] {
+TUTTE_TABLE std::array<uint32_t, 256> kReciprocal = madeTable([] {
   std::array<uint32_t, 256> table{};
   for (uint32_t n = 1; n < 256; ++n) table[n] = (65536 + n / 2) / n;
   return table;
-}();
+});
 
 /// sum / count for count 1 to 255, rounded.
 constexpr int64_t mean(int64_t sum, uint32_t count) {

@@ -24,7 +24,7 @@ const files = process.argv.slice(4);
 const seconds = files[0] === '--seconds' ? Number(files.splice(0, 2)[1]) : 0.5;
 if (files.length === 0) {
   files.push(...['Collada/duck.dae', 'OBJ/spider.obj'].map((name) => join(assimpModels, name)),
-    ...['polygon/beast.obj', 'polygon/makehuman_base.obj', 'triangle/igea.off'].map((name) => join(corpus, name)));
+    ...['polygon/beast.obj', 'polygon/makehuman_base.obj', 'triangle/igea_134345.ply'].map((name) => join(corpus, name)));
 }
 
 await MeshoptDecoder.ready;
