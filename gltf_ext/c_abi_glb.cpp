@@ -1,5 +1,6 @@
 #include "gltf_ext/c_abi_glb.h"
 
+#include <limits>
 #include <new>
 #include <string>
 #include <utility>
@@ -26,19 +27,36 @@ std::string textOf(const Failure& failure) {
 
 bool isBetween(int32_t value, int32_t least, int32_t most) { return value >= least && value <= most; }
 
+bool isValid(const tutte_error_bound& bound) {
+  return isBetween(bound.relative, 0, 1) && bound.size >= 0 &&
+         bound.size < (bound.relative ? 1 : std::numeric_limits<double>::infinity());
+}
+
+bool hasValidBounds(const tutte_compress_options& options) {
+  for (const tutte_error_bound& bound :
+       {options.position_error, options.texcoord_error, options.color_error, options.generic_error}) {
+    if (!isValid(bound) || (options.lossless != 0 && bound.size > 0)) return false;
+  }
+  return true;
+}
+
 bool isValid(const tutte_compress_options& options) {
   for (const int32_t bits :
        {options.position_bits, options.normal_bits, options.texcoord_bits, options.color_bits, options.generic_bits}) {
     if (!isBetween(bits, 0, 24)) return false;
   }
   return options.normal_bits != 1 && isBetween(options.attribute_coder, 0, 2) && isBetween(options.profile, -1, 3) &&
-         isBetween(options.effort, 0, 3) && isBetween(options.polygons, 0, 3) && isBetween(options.fallback, 0, 1);
+         isBetween(options.effort, 0, 3) && isBetween(options.polygons, 0, 3) && isBetween(options.fallback, 0, 1) &&
+         isBetween(options.grid, 0, 1) && isBetween(options.lossless, 0, 1) && hasValidBounds(options);
 }
 
 // In the order of the numbers in the interface.
 constexpr AttributeCoder kCoders[] = {AttributeCoder::kAuto, AttributeCoder::kDraco, AttributeCoder::kTutte};
+constexpr GridScope kGrids[] = {GridScope::kFile, GridScope::kMesh};
 constexpr PolygonOutput kPolygons[] = {PolygonOutput::kAuto, PolygonOutput::kFb, PolygonOutput::kExt,
                                        PolygonOutput::kBoth};
+
+ErrorBound boundFrom(const tutte_error_bound& bound) { return {bound.size, bound.relative != 0}; }
 
 CompressOptions optionsFrom(const tutte_compress_options& options) {
   CompressOptions result;
@@ -50,6 +68,10 @@ CompressOptions optionsFrom(const tutte_compress_options& options) {
   result.pack.attribute_coder = kCoders[options.attribute_coder];
   if (options.profile >= 0) result.pack.connectivity.profile = static_cast<Profile>(options.profile);
   result.pack.connectivity.effort = options.effort;
+  result.pack.errors = {boundFrom(options.position_error), boundFrom(options.texcoord_error),
+                        boundFrom(options.color_error), boundFrom(options.generic_error)};
+  if (options.lossless != 0) result.pack = withoutLoss(result.pack);
+  result.grid = kGrids[options.grid];
   result.polygons = kPolygons[options.polygons];
   result.fallback = options.fallback != 0;
   return result;
@@ -102,16 +124,14 @@ int32_t deliver(tutte_file** file, Make make) {
 void tutte_default_options(tutte_compress_options* options) {
   if (options == nullptr) return;
   const PackOptions usual;
-  *options = {usual.position_bits,
-              usual.normal_bits,
-              usual.texcoord_bits,
-              usual.color_bits,
-              usual.generic_bits,
-              0,
-              -1,
-              usual.connectivity.effort,
-              0,
-              0};
+  *options = {};
+  options->position_bits = usual.position_bits;
+  options->normal_bits = usual.normal_bits;
+  options->texcoord_bits = usual.texcoord_bits;
+  options->color_bits = usual.color_bits;
+  options->generic_bits = usual.generic_bits;
+  options->profile = -1;
+  options->effort = usual.connectivity.effort;
 }
 
 int32_t tutte_compress_glb(const uint8_t* bytes, size_t size, const tutte_compress_options* options,

@@ -18,6 +18,12 @@ extern "C" {
 /** A GLB that was made, or why it was not. */
 typedef struct tutte_file tutte_file;
 
+/** How far a component of a decoded value may be from the original. */
+typedef struct tutte_error_bound {
+  double size;      /**< in the attribute's units (positions: metres); 0: no bound, bits decide. Not negative, finite */
+  int32_t relative; /**< 1: `size`, then below 1, is a part of the attribute's largest extent */
+} tutte_error_bound;
+
 /** How to compress. tutte_default_options() gives what is usual. */
 typedef struct tutte_compress_options {
   int32_t position_bits; /**< 0 to 24; 0: without loss. So are the next ones */
@@ -30,6 +36,11 @@ typedef struct tutte_compress_options {
   int32_t effort;          /**< the same */
   int32_t polygons;        /**< 0: as the input has them, 1: FB_ngon_encoding, 2: EXT_mesh_polygon, 3: both */
   int32_t fallback;        /**< 1: keep the uncompressed data too */
+  int32_t grid;            /**< whose positions are rounded alike. 0: the file's, 1: each mesh's */
+  int32_t lossless; /**< 1: every bit of every attribute, whatever the bits above say; then no bound is allowed */
+
+  /* Where one is given, it decides instead of the bits. In the order of the bits, but for normals. */
+  tutte_error_bound position_error, texcoord_error, color_error, generic_error;
 } tutte_compress_options;
 
 void tutte_default_options(tutte_compress_options* options);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "gltf_ext/asset.h"
 #include "gltf_ext/compress.h"
 #include "gltf_ext/decompress.h"
@@ -54,6 +56,69 @@ TEST(CAbiGlb, CompressesAndDecompressesAsTheLibraryDoes) {
   EXPECT_EQ(take(file).bytes, *toGlb(*decompress(expected->asset)));
 }
 
+// What the library and the C interface make of a file with the same options.
+void expectSame(const tutte_compress_options& options, const CompressOptions& same) {
+  const Bytes plain = plainGlb();
+  tutte_file* file = nullptr;
+  ASSERT_EQ(tutte_compress_glb(plain.data(), plain.size(), &options, &file), TUTTE_OK);
+  const Outcome<Compressed> expected = compress(*parseAsset(plain), same);
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(take(file).bytes, *toGlb(expected->asset));
+}
+
+TEST(CAbiGlb, KeepsErrorBounds) {
+  tutte_compress_options options;
+  tutte_default_options(&options);
+  CompressOptions same;
+  options.position_error = {0.003, 0};
+  same.pack.errors.position = {0.003, false};
+  expectSame(options, same);
+  options.position_error = {0.001, 1};
+  same.pack.errors.position = {0.001, true};
+  expectSame(options, same);
+}
+
+TEST(CAbiGlb, KeepsEveryBitAndGridsPerMesh) {
+  tutte_compress_options options;
+  tutte_default_options(&options);
+  CompressOptions same;
+  options.grid = 1;
+  same.grid = GridScope::kMesh;
+  expectSame(options, same);
+  options.lossless = 1;
+  same.pack = withoutLoss(same.pack);
+  expectSame(options, same);
+}
+
+TEST(CAbiGlb, RefusesHostileBounds) {
+  const Bytes plain = plainGlb();
+  tutte_compress_options usual;
+  tutte_default_options(&usual);
+  const double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  const tutte_error_bound wrong[] = {{-1, 0}, {infinity, 0}, {nan, 0}, {1, 1}, {nan, 1}, {0.5, 2}, {0.5, -1}};
+  for (tutte_error_bound tutte_compress_options::*field :
+       {&tutte_compress_options::position_error, &tutte_compress_options::texcoord_error,
+        &tutte_compress_options::color_error, &tutte_compress_options::generic_error}) {
+    for (const tutte_error_bound& bound : wrong) {
+      tutte_compress_options options = usual;
+      options.*field = bound;
+      tutte_file* file = nullptr;
+      EXPECT_EQ(tutte_compress_glb(plain.data(), plain.size(), &options, &file), TUTTE_INVALID_ARGUMENT);
+      EXPECT_EQ(file, nullptr);
+    }
+    for (const double size : {5e-324, 1e-30, 1e30, std::numeric_limits<double>::max()}) {
+      tutte_compress_options options = usual;
+      options.*field = {size, 0};
+      tutte_file* file = nullptr;
+      (void)tutte_compress_glb(plain.data(), plain.size(), &options, &file);  // whatever comes of it, it comes back
+      EXPECT_NE(file, nullptr);
+      tutte_free_file(file);
+      options.lossless = 1;
+      EXPECT_EQ(tutte_compress_glb(plain.data(), plain.size(), &options, &file), TUTTE_INVALID_ARGUMENT);
+    }
+  }
+}
+
 TEST(CAbiGlb, SaysWhatIsWrongAndWhere) {
   const std::string text = R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4, "uri": "a.bin"}]})";
   const auto* const bytes = reinterpret_cast<const uint8_t*>(text.data());
@@ -76,7 +141,8 @@ TEST(CAbiGlb, SurvivesHostileArguments) {
   for (int32_t tutte_compress_options::*field :
        {&tutte_compress_options::position_bits, &tutte_compress_options::generic_bits,
         &tutte_compress_options::attribute_coder, &tutte_compress_options::profile, &tutte_compress_options::effort,
-        &tutte_compress_options::polygons, &tutte_compress_options::fallback}) {
+        &tutte_compress_options::polygons, &tutte_compress_options::fallback, &tutte_compress_options::grid,
+        &tutte_compress_options::lossless}) {
     for (const int32_t value : {-2, 99}) {
       tutte_compress_options options = usual;
       options.*field = value;

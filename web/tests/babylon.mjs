@@ -22,4 +22,6 @@ after(() => started.close());
 
 const show = (url, decoder) => opened.page.evaluate(([url, decoder]) => globalThis.show(url, decoder), [url, decoder]);
 
-loaderTests({show, models: models(), started: () => started, opened: () => opened});
+const loadMany = (url, times) => opened.page.evaluate(([url, times]) => globalThis.loadMany(url, 'pool', times), [url, times]);
+
+loaderTests({show, loadMany, models: models(), started: () => started, opened: () => opened});

@@ -11,12 +11,13 @@ import {Model} from './models.mjs';
 /**
  * @param {object} loader
  * @param {(url: string, decoder: 'pool' | 'local' | null) => Promise<any>} loader.show  a picture, or an error
+ * @param {(url: string, times: number) => Promise<number>} loader.loadMany  bytes in use after as many loads
  * @param {Model[]} loader.models
  * @param {() => any} loader.started
  * @param {() => any} loader.opened
  * @param {boolean} [loader.fetchesFallback]  the loader cannot be kept from it
  */
-export function loaderTests({show, models, started, opened, fetchesFallback = false}) {
+export function loaderTests({show, loadMany, models, started, opened, fetchesFallback = false}) {
   for (const model of models) {
     test(`${model.name}: the picture of the plain file`, async () => {
       model.compressed, model.plain;
@@ -85,6 +86,13 @@ export function loaderTests({show, models, started, opened, fetchesFallback = fa
       assert.ok(drawn(picture) > 1000);
     });
   }
+
+  test('two hundred loads do not grow memory', async () => {
+    const load = (/** @type {number} */ times) => loadMany(`/models/${models[0].name}.glb`, times);
+    await load(20);
+    const before = await load(50), after = await load(150);
+    assert.ok(after < before + 2e6, `${before} bytes after 70 loads, ${after} after 220`);
+  });
 
   test('nothing went wrong unseen', () => assert.deepEqual(opened().problems, []));
 }

@@ -34,7 +34,7 @@ function torus(columns, rows) {
 function comb(columns, rows) {
   const lines = [], known = new Map();
   const vertex = (x, y) => {
-    const key = `${x.toFixed(3)} ${y.toFixed(3)}`;
+    const key = `${Math.round(1000 * x)} ${Math.round(1000 * y)}`;
     if (!known.has(key)) {
       known.set(key, known.size + 1);
       lines.push(`v ${x} ${y} ${0.2 * Math.sin(x) * Math.cos(y)}`);

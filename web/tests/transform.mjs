@@ -43,6 +43,33 @@ for (const model of all) {
   });
 }
 
+const precisions = [
+  [{errors: {position: 0.003}}, '--error', '0.003'],
+  [{errors: {position: '0.1%', texcoord: 0.002}}, '--error', '0.1%,TEXCOORD=0.002'],
+  [{grid: 'mesh', positionBits: 12}, '--grid', 'mesh', '--qp', '12'],
+  [{lossless: true}, '--lossless'],
+];
+for (const [options, ...words] of precisions) {
+  test(`${words.join(' ')}: the encoder's file is the native one's`, () => {
+    for (const model of all.slice(0, 3)) {
+      const file = join(scratch, 'native.glb');
+      run('encode', model.plain, file, ...words);
+      const {glb} = encoder.compress(model.plainBytes(), options);
+      assert.ok(Buffer.from(glb).equals(readFileSync(file)), `${model.name}: ${glb.length} bytes`);
+    }
+  });
+}
+
+test('options that cannot be are errors', () => {
+  const good = all[0].plainBytes();
+  const wrong = [0, -1, NaN, Infinity, '1', 'x%', '%', '-1%', '100%', null, {}].map((position) => ({errors: {position}}));
+  wrong.push({errors: {normal: 1}}, {errors: null}, {errors: 3}, {grid: 'all'}, {lossless: 2}, {lossless: true, positionBits: 3},
+    {lossless: true, errors: {position: 1}});
+  for (const options of wrong) {
+    assert.throws(() => encoder.compress(good, options), {code: 'INVALID_ARGUMENT'}, JSON.stringify(options));
+  }
+});
+
 test('the encoder refuses what is no GLB, and goes on', () => {
   for (const bytes of [new Uint8Array(), new Uint8Array(100), new TextEncoder().encode('{"asset": {"version": "1.0"}}')]) {
     assert.throws(() => encoder.compress(bytes), TutteError);

@@ -29,12 +29,14 @@ const loader = new GLTFLoader().register((parser) => new TutteMeshCompression(pa
 loader.loadAsync('model.glb').then((gltf) => polygonLines(gltf, gltf.scene.children[0] as any));
 const io = new NodeIO().registerExtensions(TutteExtensions).registerDependencies(await loadDependencies());
 await (await io.read('model.glb')).transform(tutte({positionBits: 12, polygons: 'both'}));
-const {glb, warnings} = (await loadEncoder()).compress(new Uint8Array(), {effort: 1});
+const {glb, warnings} = (await loadEncoder()).compress(new Uint8Array(), {effort: 1, errors: {position: '0.1%', color: 0.01}});
 const mode: Mode = 'DEGREES';
 tutteContainerOptions(decoder).bufferView.processAsync({}, [], () => {});
 export const all = [glb.length + warnings.length, mode, new TutteError('A', 'b').code, CompressedViews];
 // @ts-expect-error there is no such option
 tutte({bits: 3});
+// @ts-expect-error there is no such bound
+tutte({errors: {position: '3 mm'}});
 `);
 
 test('sources, declarations and a user agree', () => {

@@ -178,6 +178,11 @@ void* aligned_alloc(size_t alignment, size_t size) {
   return aligned->memory();
 }
 
+// By these names libc itself asks for memory.
+void* __libc_malloc(size_t size) { return allocate(size); }
+void __libc_free(void* memory) { free(memory); }
+void* __libc_calloc(size_t count, size_t size) { return calloc(count, size); }
+
 // With bulk memory operations these are one instruction each.
 void* memcpy(void* to, const void* from, size_t size) { return __builtin_memcpy(to, from, size); }
 void* memmove(void* to, const void* from, size_t size) { return __builtin_memmove(to, from, size); }

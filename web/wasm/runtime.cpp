@@ -10,6 +10,8 @@ extern "C" {
 _Noreturn void abort() { __builtin_trap(); }
 _Noreturn void __cxa_pure_virtual() { __builtin_trap(); }
 _Noreturn void _Exit(int) { __builtin_trap(); }
+
+int __cxa_atexit(void (*)(void*), void*, void*) { return 0; }  // a module never ends
 }
 
 void* operator new(size_t size) {

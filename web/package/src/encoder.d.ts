@@ -1,5 +1,8 @@
 import type {WasmSource} from './index.js';
 
+/** A number above 0 in the attribute's units (positions: metres), or such as '0.01%' of its largest extent. */
+export type ErrorBound = number | `${number}%`;
+
 /** How to compress. Bits are 0 to 24 per component; 0: without loss. */
 export interface EncodeOptions {
   /** Usually 14. */
@@ -12,6 +15,12 @@ export interface EncodeOptions {
   colorBits?: number;
   /** Of custom attributes, and of morph targets of anything but positions; usually 12. */
   genericBits?: number;
+  /** How far a component may be from the original; where given, this decides instead of the bits. */
+  errors?: {position?: ErrorBound; texcoord?: ErrorBound; color?: ErrorBound; generic?: ErrorBound};
+  /** Keep every bit of every attribute. Goes with neither bits nor errors. */
+  lossless?: boolean;
+  /** Whose positions are rounded alike, so that no cracks open between them; usually the file's. */
+  grid?: 'file' | 'mesh';
   /** Who codes the attributes' numbers; usually whichever takes fewer bytes. */
   attributeCoder?: 'auto' | 'draco' | 'tutte';
   /** Of connectivity and attributes. */

@@ -46,20 +46,39 @@ export function ringsOfTriangles(triangles, fans) {
 }
 
 /**
- * The edges of rings, each once: two vertices per edge. Ends at the same place with different other attributes are
- * different vertices, so an edge on a seam comes twice.
- * @param {PolygonRings} rings
+ * For each vertex the first one with the same values: vertices that other attributes keep apart are in one place.
+ * @param {{count: number, read: (vertex: number) => (number | bigint)[]}} values
  */
-export function edgesOfRings({vertices, starts}) {
+export function firstWithSame({count, read}) {
+  const first = new Uint32Array(count);
+  /** @type {Map<string, number>} */
+  const known = new Map();
+  for (let vertex = 0; vertex < count; ++vertex) {
+    const key = read(vertex).join();
+    const same = known.get(key);
+    first[vertex] = same ?? vertex;
+    if (same === undefined) known.set(key, vertex);
+  }
+  return first;
+}
+
+/**
+ * The edges of rings, each once: two vertices per edge.
+ * @param {PolygonRings} rings
+ * @param {Uint32Array} [placeOf]  equal for vertices in one place, whose edges are one
+ */
+export function edgesOfRings({vertices, starts}, placeOf) {
   const edges = new Uint32Array(2 * vertices.length);
   const vertexCount = vertices.reduce((most, vertex) => Math.max(most, vertex), 0) + 1;
+  const place = placeOf ? (/** @type {number} */ vertex) => placeOf[vertex] : (/** @type {number} */ vertex) => vertex;
   /** @type {Set<number>} */
   const known = new Set();
   let count = 0;
   for (let ring = 0; ring + 1 < starts.length; ++ring) {
     for (let i = starts[ring], last = starts[ring + 1] - 1; i <= last; ++i) {
       const a = vertices[i], b = vertices[i === last ? starts[ring] : i + 1];
-      const key = Math.min(a, b) * vertexCount + Math.max(a, b);
+      const from = place(a), to = place(b);
+      const key = Math.min(from, to) * vertexCount + Math.max(from, to);
       if (known.has(key)) continue;
       known.add(key);
       edges[count++] = a;

@@ -2,7 +2,7 @@ import {BufferAttribute, BufferGeometry, LineSegments} from 'three';
 
 import {CompressedViews} from './gltf.js';
 import {EXTENSION_NAME} from './index.js';
-import {edgesOfRings, ringsOfLoops, ringsOfTriangles} from './polygons.js';
+import {edgesOfRings, firstWithSame, ringsOfLoops, ringsOfTriangles} from './polygons.js';
 
 /** A plug-in of GLTFLoader. */
 export class TutteMeshCompression {
@@ -44,9 +44,18 @@ export async function loadPolygons(gltf, mesh) {
   return ringsOfTriangles(triangles, primitive?.extensions?.FB_ngon_encoding !== undefined);
 }
 
+/** Equal for vertices that are, and stay, in one place, whatever bones and morph targets do. @param {any} geometry */
+function placesOf({attributes, morphAttributes}) {
+  const {position, skinIndex, skinWeight} = attributes;
+  const deciding = [position, skinIndex, skinWeight, ...(morphAttributes.position ?? [])].filter((attribute) => attribute);
+  const read = (/** @type {number} */ vertex) => deciding.flatMap((attribute) =>
+    Array.from({length: attribute.itemSize}, (_, component) => attribute.getComponent(vertex, component)));
+  return firstWithSame({count: position.count, read});
+}
+
 /** @type {import('./three.js').polygonEdges} */
 export async function polygonEdges(gltf, mesh) {
-  const edges = edgesOfRings(await loadPolygons(gltf, mesh));
+  const edges = edgesOfRings(await loadPolygons(gltf, mesh), placesOf(mesh.geometry));
   const geometry = new BufferGeometry();
   for (const [name, attribute] of Object.entries(mesh.geometry.attributes)) geometry.setAttribute(name, attribute);
   geometry.morphAttributes = mesh.geometry.morphAttributes;

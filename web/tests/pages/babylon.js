@@ -42,4 +42,18 @@ globalThis.show = async (url, decoder) => {
   }
 };
 
+/** Bytes in use after loading a file `times` times. */
+globalThis.loadMany = async (url, decoder, times) => {
+  choose(decoder);
+  for (let i = 0; i < times; ++i) {
+    const scene = new BABYLON.Scene(engine);
+    await BABYLON.SceneLoader.AppendAsync('', url, scene);
+    scene.dispose();
+  }
+  globalThis.gc?.();
+  await new Promise((done) => setTimeout(done, 50));
+  globalThis.gc?.();
+  return performance.memory.usedJSHeapSize;
+};
+
 globalThis.ready = true;

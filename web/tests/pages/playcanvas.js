@@ -57,6 +57,11 @@ function draw(entity) {
   return Array.from(pixels);
 }
 
+function unload(asset) {
+  asset.unload();
+  app.assets.remove(asset);
+}
+
 /** Loads and draws a file. Gives the picture, or the loader's error. */
 globalThis.show = async (url, decoder) => {
   try {
@@ -64,12 +69,20 @@ globalThis.show = async (url, decoder) => {
     const entity = asset.resource.instantiateRenderEntity();
     const picture = draw(entity);
     entity.destroy();
-    asset.unload();
-    app.assets.remove(asset);
+    unload(asset);
     return {picture};
   } catch (error) {
     return {error: String(error)};
   }
+};
+
+/** Bytes in use after loading a file `times` times. */
+globalThis.loadMany = async (url, decoder, times) => {
+  for (let i = 0; i < times; ++i) unload(await load(url, decoder));
+  globalThis.gc?.();
+  await new Promise((done) => setTimeout(done, 50));
+  globalThis.gc?.();
+  return performance.memory.usedJSHeapSize;
 };
 
 globalThis.ready = true;

@@ -22,6 +22,18 @@ const precisions = {
   GENERIC: ['Other', 12],
 };
 
+/** What decides how exact Tutte is; the others know bits only. */
+const exactnesses = {
+  bits: {title: 'Bits', options: () => ({}), notes: () => []},
+  error: {
+    title: 'Largest error',
+    options: () => ({errors: {position: `${byId('error').valueAsNumber}%`}}),
+    notes: () => [`Tutte: positions off by at most ${byId('error').valueAsNumber} % of the model's size.`],
+  },
+  lossless: {title: 'Every bit', options: () => ({lossless: true}), notes: () => ['Tutte: every bit kept.']},
+};
+const grids = {file: 'The whole file', mesh: 'Each mesh'};
+
 /** @param {string} id @returns {any} */
 const byId = (id) => document.getElementById(id);
 const stage = new Stage(byId('canvas'));
@@ -78,6 +90,8 @@ async function open(promised) {
 async function store() {
   const mine = current;
   const bits = Object.fromEntries(Object.keys(precisions).map((name) => [name, byId(`bits-${name}`).valueAsNumber]));
+  const exactness = byId('exactness').value;
+  const choice = {grid: byId('grid').value, ...exactnesses[exactness].options()};
   mine.versions.splice(1, Infinity, ...Object.entries(ways).map(([id, way]) => ({id, ...way})));
   mine.times = [];
   mine.warnings = [];
@@ -88,7 +102,7 @@ async function store() {
   const {run} = mine;
   for (const id of Object.keys(ways)) {
     report.say(`Compressing: ${ways[id].title}`);
-    await storeOne(mine, id, bits).catch((error) => {
+    await storeOne(mine, id, bits, choice).catch((error) => {
       Object.assign(
         mine.versions.find((version) => version.id === id),
         {failed: 'failed', note: error.message}
@@ -101,14 +115,14 @@ async function store() {
   const precision = `Positions in ${bits.POSITION} bits, normals ${bits.NORMAL}, texture coordinates ${bits.TEXCOORD}.`;
   const weights = mine.hasWeights ? ['Skin weights exactly in Tutte, rounded in the others.'] : [];
   const left = mine.warnings.map((warning) => `Tutte: ${warning}.`);
-  report.showSizeNote(['Without textures.', precision, ...weights, ...left].join(' '));
+  report.showSizeNote(['Without textures.', precision, ...exactnesses[exactness].notes(), ...weights, ...left].join(' '));
   summarise(mine);
   report.busy(false);
 }
 
-/** @param {any} mine @param {string} id @param {Record<string, number>} bits */
-async function storeOne(mine, id, bits) {
-  const {bytes, warnings, shown, size, zipped, ms} = await ask('store', {way: id, bits});
+/** @param {any} mine @param {string} id @param {Record<string, number>} bits @param {any} choice */
+async function storeOne(mine, id, bits, choice) {
+  const {bytes, warnings, shown, size, zipped, ms} = await ask('store', {way: id, bits, choice});
   if (mine !== current) return;
   mine.files[id] = shown;
   Object.assign(
@@ -212,25 +226,46 @@ function openFiles(files) {
   open(Promise.resolve(files).then(modelOf));
 }
 
-/** A number for each kind of attribute. Changing one compresses anew. */
+/** What decides how exact the compressed model is. Changing it compresses anew. */
 function offerPrecision() {
+  const form = byId('bits');
+  const titles = Object.entries(exactnesses).map(([value, {title}]) => [value, title]);
+  form.append(labelled('Tutte keeps', choiceOf('exactness', titles)));
+  form.append(labelled('Largest error, % of the size', numberFor('error', 0.01, 0.0001, 10, 'any')));
+  form.append(labelled('Rounded together', choiceOf('grid', Object.entries(grids))));
   for (const [name, [title, bits]] of Object.entries(precisions)) {
-    const input = Object.assign(document.createElement('input'), {
-      type: 'number',
-      id: `bits-${name}`,
-      value: bits,
-      min: 6,
-      max: 16,
-      step: 1,
-    });
-    const label = document.createElement('label');
-    label.append(title, input);
-    byId('bits').append(label);
-    input.addEventListener('change', () => {
-      if (input.reportValidity() && current?.versions) store();
-    });
+    form.append(labelled(title, numberFor(`bits-${name}`, bits, 6, 16, 1)));
   }
-  byId('bits').addEventListener('submit', (/** @type {Event} */ event) => event.preventDefault());
+  enableWhatCounts();
+  form.addEventListener('change', (/** @type {Event} */ event) => {
+    enableWhatCounts();
+    if (/** @type {any} */ (event.target).reportValidity() && current?.versions) store();
+  });
+  form.addEventListener('submit', (/** @type {Event} */ event) => event.preventDefault());
+}
+
+function enableWhatCounts() {
+  byId('error').disabled = byId('exactness').value !== 'error';
+  byId('grid').disabled = byId('exactness').value === 'lossless';
+}
+
+/** @param {string} title @param {HTMLElement} input */
+function labelled(title, input) {
+  const label = document.createElement('label');
+  label.append(title, input);
+  return label;
+}
+
+/** @param {string} id @param {number} value @param {number} min @param {number} max @param {number | 'any'} step */
+function numberFor(id, value, min, max, step) {
+  return Object.assign(document.createElement('input'), {type: 'number', id, min, max, step, value});
+}
+
+/** @param {string} id @param {string[][]} options  values and titles */
+function choiceOf(id, options) {
+  const select = Object.assign(document.createElement('select'), {id});
+  for (const [value, title] of options) select.append(new Option(title, value));
+  return select;
 }
 
 startTheme(byId('theme'), () => stage.recolor());

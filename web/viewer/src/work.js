@@ -50,9 +50,9 @@ const tasks = {
   },
 
   /** Stores the model in one of the ways. */
-  async store({way, bits}) {
+  async store({way, bits, choice}) {
     const all = await parts;
-    const {bytes, warnings} = await ways[way](bits, all);
+    const {bytes, warnings} = await ways[way](bits, all, choice);
     const shown = way === 'tutte' ? bytes : await all.io.writeBinary(plain(await all.io.readBinary(bytes)));
     return {bytes, warnings, shown, ...(await sizesOf(bytes, imageBytes(bytes))), ms: await timers[way](bytes, all)};
   },
@@ -79,14 +79,9 @@ const tasks = {
 };
 
 const ways = {
-  tutte(bits, {tutteEncoder}) {
-    const {glb, warnings} = tutteEncoder.compress(model, {
-      positionBits: bits.POSITION,
-      normalBits: bits.NORMAL,
-      texcoordBits: bits.TEXCOORD,
-      colorBits: bits.COLOR,
-      genericBits: bits.GENERIC,
-    });
+  /** `choice`: what only this encoder knows. */
+  tutte(bits, {tutteEncoder}, choice) {
+    const {glb, warnings} = tutteEncoder.compress(model, choice.lossless ? choice : {...tutteBits(bits), ...choice});
     return {bytes: glb, warnings};
   },
 
@@ -95,6 +90,16 @@ const ways = {
 
   meshopt: (bits, {io}) => transformed(io, meshopt({encoder: MeshoptEncoder, level: 'medium', ...quantization(bits)})),
 };
+
+function tutteBits(bits) {
+  return {
+    positionBits: bits.POSITION,
+    normalBits: bits.NORMAL,
+    texcoordBits: bits.TEXCOORD,
+    colorBits: bits.COLOR,
+    genericBits: bits.GENERIC,
+  };
+}
 
 function quantization(bits) {
   return {
