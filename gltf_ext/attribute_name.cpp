@@ -1,7 +1,7 @@
 #include "gltf_ext/attribute_name.h"
 
 #include <array>
-#include <charconv>
+#include <limits>
 #include <optional>
 
 namespace tutte {
@@ -28,11 +28,26 @@ const Standard& standardOf(Semantic semantic) { return kStandards[static_cast<si
 
 /// Digits without a leading zero; anything else would not come back as it was.
 std::optional<uint32_t> parseNumber(std::string_view digits) {
-  uint32_t value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
-  if (digits.size() > 1 && digits[0] == '0') return std::nullopt;
-  return value;
+  if (digits.empty() || digits.size() > 10 || (digits.size() > 1 && digits[0] == '0')) return std::nullopt;
+  uint64_t value = 0;
+  for (const char digit : digits) {
+    if (digit < '0' || digit > '9') return std::nullopt;
+    value = 10 * value + static_cast<uint64_t>(digit - '0');
+  }
+  if (value > std::numeric_limits<uint32_t>::max()) return std::nullopt;
+  return static_cast<uint32_t>(value);
+}
+
+/// `mark` and a number. Written out, for what the library has takes more code than the rest of the names.
+void appendNumber(std::string& text, char mark, uint32_t number) {
+  std::array<char, 11> digits;
+  size_t first = digits.size();
+  do {
+    digits[--first] = static_cast<char>('0' + number % 10);
+    number /= 10;
+  } while (number > 0);
+  digits[--first] = mark;
+  text.append(&digits[first], digits.size() - first);
 }
 
 std::string_view takeTarget(std::string_view name, AttributeName& result) {
@@ -73,9 +88,10 @@ std::string nameOf(const AttributeName& name) {
   std::string text = name.custom;
   if (name.semantic != Semantic::kCustom) {
     text = standardOf(name.semantic).name;
-    if (standardOf(name.semantic).has_set) text += "_" + std::to_string(name.set);
+    if (standardOf(name.semantic).has_set) appendNumber(text, '_', name.set);
   }
-  return name.is_target ? text + "@" + std::to_string(name.target) : text;
+  if (name.is_target) appendNumber(text, '@', name.target);
+  return text;
 }
 
 void writeName(const AttributeName& name, ByteWriter& out) {
