@@ -10,6 +10,7 @@
 
 #include "codec/lanes.h"
 #include "codec/logistic.h"
+#include "codec/made_table.h"
 
 namespace tutte {
 
@@ -103,11 +104,11 @@ class FinalMap {
   }
 
  private:
-  static constexpr std::array<uint16_t, 33> kInitial = [] {
+  static TUTTE_TABLE std::array<uint16_t, 33> kInitial = madeTable([] {
     std::array<uint16_t, 33> points{};
     for (int i = 0; i < 33; ++i) points[i] = static_cast<uint16_t>(squash(std::clamp(i * 128 - 2048, -2047, 2047)));
     return points;
-  }();
+  });
 
   std::array<std::array<uint16_t, 33>, kDecisions> points_;
   uint16_t* at_ = nullptr;

@@ -155,17 +155,12 @@ class Script {
 /// Runs `use` with the statistics class that the header names, as a type: use(std::type_identity<Statistics>).
 template <class Use>
 auto withStatistics(const SectionHeader& header, Use&& use) {
-#if defined(TUTTE_COMPACT)
-  (void)header;
-  return use(std::type_identity<AnyStatistics>());
-#else
   switch (header.profile) {
-    case Profile::kFast: return use(std::type_identity<MixedStatistics<FastProfile> >());
-    case Profile::kDefault: return use(std::type_identity<MixedStatistics<DefaultProfile> >());
-    case Profile::kSmall: return use(std::type_identity<MixedStatistics<SmallProfile> >());
-    default: return use(std::type_identity<PaperStatistics>());
+    case Profile::kFast: return use(std::type_identity<StatisticsFor<MixedStatistics<FastProfile>>>());
+    case Profile::kDefault: return use(std::type_identity<StatisticsFor<MixedStatistics<DefaultProfile>>>());
+    case Profile::kSmall: return use(std::type_identity<StatisticsFor<MixedStatistics<SmallProfile>>>());
+    default: return use(std::type_identity<StatisticsFor<PaperStatistics>>());
   }
-#endif
 }
 
 }  // namespace tutte

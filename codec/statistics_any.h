@@ -4,7 +4,6 @@
 
 #include <optional>
 
-#include "codec/gaps.h"
 #include "codec/section.h"
 #include "codec/statistics_mixed.h"
 #include "codec/statistics_paper.h"
@@ -13,7 +12,7 @@ namespace tutte {
 
 class AnyStatistics {
  public:
-  static constexpr bool kGathers = true;
+  static constexpr bool kGathers = true, kSums = true;
 
   explicit AnyStatistics(const SectionHeader& header) : profile_(header.profile) {
     switch (profile_) {
@@ -25,13 +24,18 @@ class AnyStatistics {
   }
 
   template <class Port>
-  FaceAnswer face(Port& port, const FaceQuestion& question, const Gaps& gaps, const FaceAnswer& truth) {
-    return ask([&](auto& statistics) { return statistics.face(port, question, gaps, truth); });
+  FaceAnswer face(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {
+    return ask([&](auto& statistics) { return statistics.face(port, question, truth); });
   }
 
   template <class Port>
-  Index vertex(Port& port, const VertexQuestion& question, const Gaps& gaps, Index truth) {
-    return ask([&](auto& statistics) { return statistics.vertex(port, question, gaps, truth); });
+  [[gnu::noinline]] Index vertex(Port& port, const VertexQuestion& question, Index truth) {
+    return ask([&](auto& statistics) { return statistics.vertex(port, question, truth); });
+  }
+
+  template <class Port>
+  [[gnu::noinline]] Index seedVertex(Port& port, const VertexQuestion& question, Index truth) {
+    return ask([&](auto& statistics) { return statistics.seedVertex(port, question, truth); });
   }
 
  private:
@@ -51,5 +55,14 @@ class AnyStatistics {
   std::optional<MixedStatistics<DefaultProfile>> default_;
   std::optional<MixedStatistics<SmallProfile>> small_;
 };
+
+/// What stands for a profile's own class.
+#if defined(TUTTE_COMPACT)
+template <class>
+using StatisticsFor = AnyStatistics;
+#else
+template <class Statistics>
+using StatisticsFor = Statistics;
+#endif
 
 }  // namespace tutte
