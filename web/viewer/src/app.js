@@ -26,13 +26,13 @@ const precisions = {
 const exactnesses = {
   bits: {title: 'Bits', options: () => ({}), notes: () => []},
   error: {
-    title: 'Largest error',
+    title: 'Error bound',
     options: () => ({errors: {position: `${byId('error').valueAsNumber}%`}}),
     notes: () => [`Tutte: positions off by at most ${byId('error').valueAsNumber} % of the model's size.`],
   },
   lossless: {title: 'Every bit', options: () => ({lossless: true}), notes: () => ['Tutte: every bit kept.']},
 };
-const grids = {file: 'The whole file', mesh: 'Each mesh'};
+const grids = {file: 'File', mesh: 'Mesh'};
 
 /** @param {string} id @returns {any} */
 const byId = (id) => document.getElementById(id);
@@ -232,7 +232,7 @@ function offerPrecision() {
   const titles = Object.entries(exactnesses).map(([value, {title}]) => [value, title]);
   form.append(labelled('Tutte keeps', choiceOf('exactness', titles)));
   form.append(labelled('Largest error, % of the size', numberFor('error', 0.01, 0.0001, 10, 'any')));
-  form.append(labelled('Rounded together', choiceOf('grid', Object.entries(grids))));
+  form.append(labelled('Rounded alike per', choiceOf('grid', Object.entries(grids))));
   for (const [name, [title, bits]] of Object.entries(precisions)) {
     form.append(labelled(title, numberFor(`bits-${name}`, bits, 6, 16, 1)));
   }
