@@ -127,6 +127,20 @@ test('the precision is the one that was chosen', async () => {
   await finished();
 });
 
+test('every bit is kept, or an error bound, on request', async () => {
+  await give(['house.obj', house]);
+  await page.selectOption('#exactness', 'lossless');
+  await finished();
+  assert.match(run('verify', '--exact', written('house.obj', house), await downloaded()), /same/);
+  assert.match(await text('#size-note'), /every bit kept/);
+  await page.selectOption('#exactness', 'error');
+  await finished();
+  assert.match(await text('#size-note'), /at most 0.01 %/);
+  assert.ok(!(await text('#sizes')).includes('failed'), await text('#sizes'));
+  await page.selectOption('#exactness', 'bits');
+  await finished();
+});
+
 test('a compressed file is shown with its polygons and stored anew', async () => {
   const file = join(scratch, 'house.glb');
   run('encode', written('house.obj', house), file);
