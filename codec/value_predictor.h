@@ -15,6 +15,7 @@
 #include "codec/value_residuals.h"
 #include "codec/value_stencil.h"
 #include "codec/value_tables.h"
+#include "codec/value_tangent.h"
 
 namespace tutte::values {
 
@@ -46,7 +47,6 @@ class SitePredictor {
     if (options.echoes) echoes_.emplace(graph, nodes_, count_);
     if (options.copies) copies_.emplace(graph, nodes_, tangent_);
     picks_.fill(Chance(6160));
-    tangents_.fill(2048);
   }
 
   /// Codes the value of the next site; a writer takes it from `values`, which has all sites', a reader stores it there.
@@ -166,20 +166,21 @@ class SitePredictor {
   }
 
   void codeComponents() {
-    const std::array<int, C> order = componentOrder();
+    if constexpr (C == 4) plane_.turn(stencil_.normal);
     Values raw{};
     int32_t so_far = 0;
-    for (int place = 0; place < width(); ++place) codeComponent(order, place, raw, so_far);
+    for (int place = 0; place < width(); ++place) codeComponent(place, raw, so_far);
   }
 
-  [[gnu::always_inline]] void codeComponent(const std::array<int, C>& order, int place, Values& raw, int32_t& so_far) {
-    const int i = order[place];
+  [[gnu::always_inline]] void codeComponent(int place, Values& raw, int32_t& so_far) {
+    const int i = plane_.component(place);
+    const uint32_t situation = source() * 2 + (stencil_.member_count > 1);
     T prediction = stencil_.base[i];
     int64_t correction = 0;
-    const bool corrected = place == 2 && bent_;
+    const bool corrected = place == 2 && plane_.bent();
     if (corrected) {
-      correction = tangentCorrection(order, raw);
-      prediction += static_cast<T>(tangentGain() * correction >> 12);
+      correction = plane_.correction(raw);
+      prediction += static_cast<T>(plane_.believed(correction, all_error_, situation));
     }
     const T rounded = std::clamp<T>((prediction + 8) >> kFraction, 0, max_);
     T coded = rounded + static_cast<T>(residuals_.code(port_, expect(i, std::min(place, 2), so_far, prediction),
@@ -193,55 +194,10 @@ class SitePredictor {
     const T off = coded * kOne - prediction;
     errors_[i] = static_cast<int32_t>(std::min<T>(off < 0 ? -off : off, kLargestError));
     so_far += errors_[i];
-    if (corrected) adaptTangent(raw[i], correction);
+    if (corrected) plane_.learn(raw[i], correction, all_error_, situation);
   }
 
-  // Where the plane is at the two components that are known.
-  int64_t tangentCorrection(const std::array<int, C>& order, const Values& raw) const {
-    const int64_t sum = normal_[order[0]] * int64_t{raw[order[0]]} + normal_[order[1]] * int64_t{raw[order[1]]};
-    return -sum / normal_[order[2]];
-  }
-
-  // With a normal, the component that the surface's plane determines best comes last.
-  std::array<int, C> componentOrder() {
-    std::array<int, C> order{};
-    for (int i = 0; i < C; ++i) order[i] = i;
-    bent_ = false;
-    if constexpr (C == 4) {
-      if (stencil_.normal == std::array<int64_t, 3>{}) return order;
-      std::array<uint64_t, 3> size{};
-      for (int i = 0; i < 3; ++i) {
-        const int64_t x = stencil_.normal[i];
-        size[i] = x < 0 ? uint64_t{0} - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);
-      }
-      // Ascending; equal ones stay as they are.
-      constexpr std::array<std::array<int, 3>, 8> kOrders = {
-          {{0, 1, 2}, {0, 2, 1}, {0, 1, 2}, {2, 0, 1}, {1, 0, 2}, {0, 1, 2}, {1, 2, 0}, {2, 1, 0}}};
-      std::ranges::copy(kOrders[(size[0] > size[1]) * 4 + (size[0] > size[2]) * 2 + (size[1] > size[2])],
-                        order.begin());
-      const int shift = static_cast<int>(std::bit_width(size[order[2]])) - 12;
-      for (int i = 0; i < 3; ++i) normal_[i] = shift > 0 ? stencil_.normal[i] >> shift : stencil_.normal[i];
-      bent_ = normal_[order[2]] != 0;
-    }
-    return order;
-  }
-
-  int32_t& tangentGain() {
-    const uint32_t source = parallelograms() ? stencil_.source == Source::kWithin ? 0 : 1 : 2;
-    const uint32_t many = stencil_.member_count > 1;
-    return tangents_[(static_cast<uint32_t>(std::min(bitLength(small(all_error_)), 15)) * 3 + source) * 2 + many];
-  }
-
-  void adaptTangent(int64_t off, int64_t correction) {
-    const int64_t limit = 4 * int64_t{all_error_} + 64;
-    if (off > limit || off < -limit || correction > limit || correction < -limit) return;
-    int32_t& gain = tangentGain();
-    const int64_t error = off - (gain * correction >> 12);
-    const int shift = 2 * bitLength(small(all_error_)) - 6;
-    const int64_t product = error * correction;
-    const int64_t step = std::clamp<int64_t>(shift >= 0 ? product >> shift : product << -shift, -512, 512);
-    gain = static_cast<int32_t>(std::clamp<int64_t>(gain + step, -512, 4608));
-  }
+  uint32_t source() const { return parallelograms() ? stencil_.source == Source::kWithin ? 0 : 1 : 2; }
 
   Expectation expect(int i, int rank, int32_t so_far, T prediction) const {
     Expectation about;
@@ -252,12 +208,12 @@ class SitePredictor {
     about.spread = static_cast<int32_t>(std::min<T>(stencil_.spread[i], kWidest));
     about.widest = static_cast<int32_t>(std::min(*std::ranges::max_element(stencil_.spread), kWidest));
     about.members = members_context_;
-    about.source = parallelograms() ? stencil_.source == Source::kWithin ? 0 : 1 : 2;
+    about.source = source();
     about.rank = rank;
     about.fraction = static_cast<uint32_t>(prediction & 15);
     const T apart = stencil_.lean[i] - prediction;
     about.apart = static_cast<int32_t>(std::min<T>(apart < 0 ? -apart : apart, kWidest));
-    const int64_t side = bent_ ? normal_[i] : apart;
+    const int64_t side = plane_.bent() ? plane_.normal(i) : apart;
     about.sign = static_cast<int>(about.fraction >> 1) * 3 + (side > 0) - (side < 0) + 1;
     int32_t estimate = width() == 1 ? near
                        : rank == 0  ? (2 * all + near) / 3
@@ -292,7 +248,7 @@ class SitePredictor {
   std::optional<Copies<C, T>> copies_;
   std::array<Chance, 2 * 3 * 4 * 12> picks_;
   std::array<std::array<Chance, Stencil<C, T>::kMostMembers>, 3> indices_;
-  std::array<int32_t, 16 * 3 * 2> tangents_;
+  TangentPlane plane_;
 
   const int count_;  // of components
   const T max_;
@@ -304,10 +260,8 @@ class SitePredictor {
   // Of the current site.
   Vec<C, int32_t> wanted_{}, near_error_{}, errors_{};  // `wanted_` is the value
   int32_t all_error_ = 0;
-  std::array<int64_t, 3> normal_{};
   uint32_t members_context_ = 0;
   bool picked_ = false;
-  bool bent_ = false;
 };
 
 }  // namespace tutte::values
