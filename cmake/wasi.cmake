@@ -15,7 +15,7 @@ set(CMAKE_C_COMPILER_TARGET wasm32-wasi)
 set(CMAKE_CXX_COMPILER_TARGET wasm32-wasi)
 # Debian's clang does not find its libc++ for this target by itself.
 set(CMAKE_C_FLAGS_INIT "-msimd128 -mbulk-memory -msign-ext")
-set(CMAKE_CXX_FLAGS_INIT "-nostdinc++ -isystem /usr/include/wasm32-wasi/c++/v1 -fno-exceptions -fno-rtti -Wno-unused-command-line-argument -Wno-shorten-64-to-32 -msimd128 -mbulk-memory -msign-ext")
+set(CMAKE_CXX_FLAGS_INIT "-nostdinc++ -isystem /usr/include/wasm32-wasi/c++/v1 -fno-exceptions -fno-rtti -Wno-unused-command-line-argument -msimd128 -mbulk-memory -msign-ext")
 
 # Programs need the linker flags of web/wasm, so compilers are tried on libraries; nothing is found outside the target.
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

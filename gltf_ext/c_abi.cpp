@@ -86,7 +86,7 @@ int32_t tutte_decode_attributes(const tutte_mesh* mesh, const uint8_t* bytes, si
 void tutte_free_attributes(tutte_attributes* attributes) { delete attributes; }
 
 int64_t tutte_attribute_count(const tutte_attributes* attributes) {
-  return attributes ? static_cast<int64_t>(attributes->list.size()) : TUTTE_INVALID_ARGUMENT;
+  return attributes ? static_cast<int64_t>(attributes->list.size()) : int64_t{TUTTE_INVALID_ARGUMENT};
 }
 
 int32_t tutte_get_attribute(const tutte_attributes* attributes, uint32_t index, tutte_attribute* attribute) {

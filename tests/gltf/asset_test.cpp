@@ -39,8 +39,8 @@ TEST(Uri, PercentDecoding) {
 
 TEST(Uri, DataUris) {
   for (size_t length = 0; length < 8; ++length) {
-    Bytes bytes(length);
-    for (size_t i = 0; i < length; ++i) bytes[i] = static_cast<uint8_t>(251 + i);
+    Bytes bytes;
+    for (size_t i = 0; i < length; ++i) bytes.push_back(static_cast<uint8_t>(251 + i));
     const auto back = decodeDataUri(makeDataUri(bytes), "");
     ASSERT_TRUE(back);
     EXPECT_EQ(*back, bytes);

@@ -127,7 +127,8 @@ TEST(Grids, MeshesThatTouchStayTogether) {
       CompressOptions options;
       options.pack.errors.position.size = bound;
       const auto decoded = decodedPositions(scene, options);
-      for (Index v = 0; v < b.size(); v += 2) EXPECT_EQ(decoded.at(1000 + v), decoded.at(v % a.size())) << v;
+      for (Index v = 0; v < b.size(); v += 2)
+        EXPECT_EQ(decoded.at(1000 + v), decoded.at(v % static_cast<Index>(a.size()))) << v;
     }
   }
 }

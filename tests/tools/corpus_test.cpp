@@ -85,8 +85,8 @@ TEST_P(Corpus, EncodesDecodesAndVerifiesOrSaysWhyNot) {
 
 INSTANTIATE_TEST_SUITE_P(Folders, Corpus,
                          testing::Values("paper-polygon", "paper-triangle", "polygon", "triangle", "hard", "gltf"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& folder) {
+                           std::string name = folder.param;
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
