@@ -43,15 +43,31 @@ std::vector<Index> firstCorners(const Connectivity& dual) {
   return first;
 }
 
+// The dual's copies, as ranges of the mesh's corners. `begin`: per umbrella of the walk where the corners of its face
+// begin, and where all end.
+std::vector<ComponentCopy> copiesOf(const Connectivity& dual, const std::vector<Index>& begin) {
+  const auto firstOf = [&](Index dual_corner) {
+    return dual_corner < dual.umbrellas.size() ? begin[dual.umbrellas[dual_corner]] : begin.back();
+  };
+  std::vector<ComponentCopy> copies;
+  for (const ComponentCopy& copy : dual.copies) {
+    const Index corner = firstOf(copy.corner), original = firstOf(copy.original);
+    copies.push_back({corner, original, firstOf(copy.corner + copy.count) - corner});
+  }
+  return copies;
+}
+
 }  // namespace
 
 Result<PrimalMesh> primalOf(const Connectivity& dual, const std::vector<Index>& dummies, const Limits& limits) {
   const WalkedDual walked(dual, dummies);
   PrimalMesh primal;
   Connectivity& mesh = primal.connectivity;
-  std::vector<Index> primal_corner(dual.umbrellas.size(), kNone);
+  std::vector<Index> primal_corner(dual.umbrellas.size(), kNone), begin;
+  begin.reserve(dual.umbrella_count + size_t{1});
   for (const Index start : firstCorners(dual)) {
     if (start == kNone) return Error::kMalformed;
+    begin.push_back(static_cast<Index>(primal.dual_corner.size()));
     if (walked.isDummy(start)) continue;
     const size_t before = primal.dual_corner.size();
     for (Index c = start; primal_corner[c] == kNone; c = walked.around(c)) {
@@ -77,6 +93,8 @@ Result<PrimalMesh> primalOf(const Connectivity& dual, const std::vector<Index>& 
   if (mesh.face_degrees.size() > limits.max_faces || mesh.umbrellas.size() > limits.max_corners) {
     return Error::kLimitExceeded;
   }
+  begin.push_back(static_cast<Index>(primal.dual_corner.size()));
+  mesh.copies = copiesOf(dual, begin);
   return primal;
 }
 

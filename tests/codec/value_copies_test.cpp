@@ -73,6 +73,23 @@ TEST(ValueCopies, AreNamedByTheirCorners) {
   }
 }
 
+TEST(ValueCopies, AreNamedInDualsToo) {
+  // Vertices of valence 3 and faces of many degrees: the dual takes fewer bytes.
+  const shapes::Shape part = shapes::dual(shapes::randomTriangulation(120, 2));
+  const Result<Encoded> encoded = encode(shapes::copies(part, 3).mesh, {.profile = Profile::kDefault, .effort = 1});
+  ASSERT_TRUE(encoded);
+  ASSERT_NE(encoded->bytes[1] & 0x40, 0) << "the walk is over the dual";
+  const Connectivity& mesh = encoded->connectivity;
+  ASSERT_EQ(mesh.copies.size(), 2u);
+  for (const ComponentCopy& copy : mesh.copies) {
+    EXPECT_EQ(copy.count, part.mesh.corners.size());
+    const Index umbrella = mesh.umbrellas[copy.corner], original = mesh.umbrellas[copy.original];
+    for (Index i = 0; i < copy.count; ++i) {
+      EXPECT_EQ(mesh.umbrellas[copy.corner + i] - umbrella, mesh.umbrellas[copy.original + i] - original);
+    }
+  }
+}
+
 TEST(ValueCopies, MovedOnesAreNearlyFree) {
   const std::array<std::function<Point(Point)>, 4> motions{std::identity(), moved, std::identity(), moved};
   const Placed one(kPart, std::span(motions).first(1)), four(kPart, motions);

@@ -62,9 +62,10 @@ def primal(dual, dummies):
     start_of = {}
     for c, umbrella in enumerate(dual.umbrellas):
         start_of.setdefault(umbrella, c)
-    mesh, number, corners = Mesh(), {}, []
+    mesh, number, corners, begin = Mesh(), {}, [], []
     for umbrella in range(dual.umbrella_count):
         require(umbrella in start_of, 'a face without corners')
+        begin.append(len(corners))
         if umbrella in dummies:
             continue
         c, degree = start_of[umbrella], 0
@@ -77,6 +78,9 @@ def primal(dual, dummies):
         require(degree >= 3, 'a face of degree below 3')
         mesh.degrees.append(degree)
     mesh.twins = [number.get(following[dual.twins[preceding[c]]]) for c in corners]
+    first_of = [begin[u] for u in dual.umbrellas] + [len(corners)]
+    mesh.copies = [(first_of[c], first_of[original], first_of[c + count] - first_of[c])
+                   for c, original, count in dual.copies]
     mesh.umbrella_count = len(dual.degrees)
     on_boundary, real = set(), set(mesh.umbrellas)
     for c, umbrella in enumerate(dual.umbrellas):
