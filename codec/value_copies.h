@@ -13,7 +13,7 @@
 namespace tutte::values {
 
 /// Predicts the values of copies from those of their originals, as long as that goes better than without. 8 bytes per
-/// site and 200 per copy.
+/// site and 300 per copy.
 template <int C, class T>
 class Copies {
  public:

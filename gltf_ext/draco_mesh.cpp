@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "gltf_ext/polygon_order.h"
+#include "gltf_ext/site_layouts.h"
 
 namespace tutte {
 namespace {
@@ -16,15 +17,10 @@ using draco::VertexIndex;
 constexpr size_t kMaxCorners = 0x7FFFFFFF;  // Draco counts corners in int
 
 bool consistent(const AttributeTopology& topology) {
-  const Connectivity& mesh = topology.connectivity;
-  const size_t corners = mesh.umbrellas.size();
-  uint64_t sum = 0;
-  for (const Index degree : mesh.face_degrees) sum += degree;
-  if (sum != corners || mesh.twins.size() != corners || topology.wedges.size() != corners) return false;
-  for (size_t c = 0; c < corners; ++c) {
-    const Index twin = mesh.twins[c];
-    if (twin != kNone && (twin >= corners || mesh.twins[twin] != c)) return false;
-    if (mesh.umbrellas[c] >= mesh.umbrella_count || topology.wedges[c] >= topology.wedge_count) return false;
+  const std::vector<Index>& twins = topology.connectivity.twins;
+  if (!isConsistent(topology)) return false;
+  for (size_t c = 0; c < twins.size(); ++c) {
+    if (twins[c] != kNone && twins[twins[c]] != c) return false;
   }
   return true;
 }

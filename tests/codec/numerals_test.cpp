@@ -9,6 +9,7 @@
 #include "codec/encode.h"
 #include "codec/numeral_reader.h"
 #include "codec/numeral_values.h"
+#include "tests/codec/vertex_sites.h"
 #include "tests/shapes/shapes.h"
 
 namespace tutte {
@@ -18,27 +19,7 @@ constexpr NumeralSystem kBinary, kSixDigits{10, 6, -12, 5}, kMillionths{10, 9, -
 
 uint32_t bitsOf(double value) { return std::bit_cast<uint32_t>(static_cast<float>(value)); }
 
-struct Sites {
-  explicit Sites(Encoded coded)
-      : encoded(std::move(coded)),
-        graph(encoded.connectivity, vertices(encoded.connectivity), encoded.connectivity.vertex_count) {}
-  Sites(const Sites&) = delete;
-
-  static std::vector<Index> vertices(const Connectivity& mesh) {
-    std::vector<Index> list;
-    for (Index corner = 0; corner < mesh.umbrellas.size(); ++corner) list.push_back(mesh.vertexOf(corner));
-    return list;
-  }
-
-  const Encoded encoded;
-  ValueGraph graph;
-};
-
-Sites sitesOf(const Polygons& mesh) {
-  Result<Encoded> encoded = encode(mesh);
-  EXPECT_TRUE(encoded);
-  return Sites(*std::move(encoded));
-}
+using Sites = VertexSites;
 
 NumeralFormat formatOf(int components, const NumeralSystem& system, Relation relation = Relation::kNone) {
   NumeralFormat format{components, relation, {}};
@@ -91,7 +72,7 @@ TEST(Numerals, PrintedNumbersHaveTheirDigits) {
 TEST(Numerals, AnyBitsComeBackInAnySystem) {
   for (const auto& [name, shape] : shapes::allShapes()) {
     SCOPED_TRACE(name);
-    Sites sites = sitesOf(shape.mesh);
+    Sites sites(shape.mesh);
     shapes::Random random(3);
     for (int components = 1; components <= 4; ++components) {
       std::vector<uint32_t> floats(sites.graph.siteCount() * static_cast<size_t>(components));
@@ -105,7 +86,7 @@ TEST(Numerals, AnyBitsComeBackInAnySystem) {
 }
 
 TEST(Numerals, SpecialValuesComeBack) {
-  Sites sites = sitesOf(shapes::triangleTorus(12, 12).mesh);
+  Sites sites(shapes::triangleTorus(12, 12).mesh);
   const std::array<uint32_t, 10> special{0x7FC00000, 0x7FC12345, 0xFFFFFFFF, 0x7F800000, 0xFF800000,
                                          0x80000000, 0,          1,          0x80000001, 0x7F7FFFFF};
   shapes::Random random(4);
@@ -120,7 +101,7 @@ TEST(Numerals, SpecialValuesComeBack) {
 }
 
 TEST(Numerals, RelatedComponentsAreNearlyFree) {
-  Sites sites = sitesOf(shapes::triangleTorus(40, 40).mesh);
+  Sites sites(shapes::triangleTorus(40, 40).mesh);
   shapes::Random random(5);
   std::vector<uint32_t> vectors, sums;
   for (Index i = 0; i < sites.graph.siteCount(); ++i) {
@@ -153,7 +134,7 @@ TEST(Numerals, FormatsThatMakeNoSenseAreRefused) {
 
 class HostileNumerals : public testing::Test {
  protected:
-  HostileNumerals() : sites_(sitesOf(shapes::mergeFaces(shapes::randomTriangulation(40, 1), 12, 2).mesh)) {}
+  HostileNumerals() : sites_(shapes::mergeFaces(shapes::randomTriangulation(40, 1), 12, 2).mesh) {}
 
   Sites sites_;
 };

@@ -7,8 +7,8 @@
 #include <array>
 
 #include "codec/bytes.h"
-#include "codec/encode.h"
 #include "codec/value_surroundings.h"
+#include "tests/codec/vertex_sites.h"
 #include "tests/shapes/shapes.h"
 
 namespace tutte {
@@ -16,30 +16,7 @@ namespace {
 
 constexpr ValueProfile kProfiles[] = {ValueProfile::kFast, ValueProfile::kDefault, ValueProfile::kSmall};
 
-/// A mesh with one site per vertex.
-struct Sites {
-  explicit Sites(Encoded coded)
-      : encoded(std::move(coded)),
-        graph(encoded.connectivity, vertices(encoded.connectivity), encoded.connectivity.vertex_count),
-        vertex_order(encoded.vertex_order) {}
-  Sites(const Sites&) = delete;
-
-  static std::vector<Index> vertices(const Connectivity& mesh) {
-    std::vector<Index> vertices;
-    for (Index corner = 0; corner < mesh.umbrellas.size(); ++corner) vertices.push_back(mesh.vertexOf(corner));
-    return vertices;
-  }
-
-  const Encoded encoded;
-  ValueGraph graph;
-  const std::vector<Index>& vertex_order;
-};
-
-Sites vertexSites(const Polygons& mesh) {
-  Result<Encoded> encoded = encode(mesh);
-  EXPECT_TRUE(encoded);
-  return Sites(*std::move(encoded));
-}
+using Sites = VertexSites;
 
 /// Values that are smooth where neighbours have near numbers, with some noise.
 std::vector<int32_t> someValues(const Sites& sites, int components, int32_t max, uint64_t seed) {
@@ -63,7 +40,7 @@ std::vector<uint8_t> bytesOf(const Sites& sites, const ValueFormat& format, std:
 
 TEST(Values, OrderVisitsEverySiteOnce) {
   for (const auto& [name, shape] : shapes::allShapes()) {
-    const Sites sites = vertexSites(shape.mesh);
+    const Sites sites(shape.mesh);
     values::SurroundingsFinder finder(sites.graph, true);
     std::vector<bool> known(sites.graph.siteCount());
     for (Index i = 0; i < sites.graph.siteCount(); ++i) {
@@ -80,7 +57,7 @@ TEST(Values, OrderVisitsEverySiteOnce) {
 
 TEST(Values, RoundTrips) {
   for (const auto& [name, shape] : shapes::allShapes()) {
-    const Sites sites = vertexSites(shape.mesh);
+    const Sites sites(shape.mesh);
     for (const ValueProfile profile : kProfiles) {
       for (int components = 1; components <= 4; ++components) {
         for (const int32_t max : {0, 1, 255, 16383, (1 << 27) - 1}) {
@@ -100,7 +77,7 @@ TEST(Values, RoundTrips) {
 
 /// The extremes of the range side by side: the largest residuals there are.
 TEST(Values, Extremes) {
-  const Sites sites = vertexSites(shapes::triangleTorus(20, 20).mesh);
+  const Sites sites(shapes::triangleTorus(20, 20).mesh);
   for (const ValueProfile profile : kProfiles) {
     for (const int32_t max : {1, 1 << 20, (1 << 27) - 1}) {
       shapes::Random random(7);
@@ -118,7 +95,7 @@ TEST(Values, Extremes) {
 TEST(Values, PlanesAreNearlyFree) {
   const Index columns = 60, rows = 60;
   const shapes::Shape grid = shapes::quadGrid(columns, rows);
-  const Sites sites = vertexSites(grid.mesh);
+  const Sites sites(grid.mesh);
   std::vector<int32_t> values;
   for (const Index vertex : sites.vertex_order) {
     const auto x = static_cast<int32_t>(vertex % (columns + 1)), y = static_cast<int32_t>(vertex / (columns + 1));
@@ -140,7 +117,7 @@ bool isHarmless(const Sites& sites, const ValueFormat& format, std::span<const u
 
 TEST(Values, DamagedBytes) {
   for (const shapes::Shape& shape : {shapes::triangleTorus(6, 6), shapes::quadGrid(5, 5), shapes::hexGrid(4, 4)}) {
-    const Sites sites = vertexSites(shape.mesh);
+    const Sites sites(shape.mesh);
     for (const ValueProfile profile : kProfiles) {
       for (const int32_t max : {16383, (1 << 27) - 1}) {
         const ValueFormat format{3, max, profile, max < 1 << 20 ? ValueKind::kPoints : ValueKind::kPlain};
@@ -161,7 +138,7 @@ TEST(Values, DamagedBytes) {
 }
 
 TEST(Values, Noise) {
-  const Sites sites = vertexSites(shapes::randomTriangulation(60, 9).mesh);
+  const Sites sites(shapes::randomTriangulation(60, 9).mesh);
   for (uint64_t seed = 0; seed < 3000; ++seed) {
     shapes::Random random(seed);
     std::vector<uint8_t> bytes(random.below(300));
@@ -193,7 +170,7 @@ Guided guided(const Sites& sites, ValueKind kind, ValueProfile profile) {
 TEST(Values, GuidedRoundTripsAndDamage) {
   for (const shapes::Shape& shape :
        {shapes::quadGrid(20, 20), shapes::triangleGrid(20, 20), shapes::soup(441, 300, 3, 6, 5)}) {
-    const Sites sites = vertexSites(shape.mesh);
+    const Sites sites(shape.mesh);
     for (const ValueProfile profile : kProfiles) {
       for (const ValueKind kind : {ValueKind::kTexcoord, ValueKind::kDirection}) {
         const Guided given = guided(sites, kind, profile);
@@ -220,7 +197,7 @@ TEST(Values, GuidedRoundTripsAndDamage) {
 /// Few different values, far apart: lists of them, and names.
 TEST(Values, ListsRoundTripsAndDamage) {
   for (const auto& [name, shape] : shapes::allShapes()) {
-    const Sites sites = vertexSites(shape.mesh);
+    const Sites sites(shape.mesh);
     shapes::Random random(4);
     for (const int32_t max : {1000, (1 << 27) - 1}) {
       for (int components = 1; components <= 4; ++components) {
@@ -264,7 +241,7 @@ TEST(Values, EchoesOfOtherBordersAreCheap) {
     }
   }
   mesh.vertex_count = kStrips * 2 * (kRows + 1);
-  const Sites sites = vertexSites(mesh);
+  const Sites sites(mesh);
   std::vector<int32_t> values;
   for (const Index vertex : sites.vertex_order) {
     const Index column = vertex / (2 * (kRows + 1)) + vertex % 2, row = vertex % (2 * (kRows + 1)) / 2;
@@ -286,7 +263,7 @@ TEST(Values, EchoesOfOtherBordersAreCheap) {
 }
 
 TEST(Values, UnsupportedFormatsAreRefused) {
-  const Sites sites = vertexSites(shapes::cube().mesh);
+  const Sites sites(shapes::cube().mesh);
   const ValueSites where{sites.graph, {}};
   EXPECT_TRUE(supports(where, {3, 100, ValueProfile::kDefault, ValueKind::kPoints}));
   EXPECT_FALSE(supports(where, {2, 100, ValueProfile::kDefault, ValueKind::kPoints}));

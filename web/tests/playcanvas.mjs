@@ -1,27 +1,6 @@
 // PlayCanvas in Chromium: what its loader makes of compressed files is what it makes of plain ones.
 //
 //   node playcanvas.mjs TUTTE BUILD_FOLDER
-import {join} from 'node:path';
-import {after, before} from 'node:test';
+import {testLoaderPage} from './loader_page.mjs';
 
-import {needBrowser, openPage, startBrowser} from './browser.mjs';
-import {loaderTests} from './loader_tests.mjs';
-import {models} from './models.mjs';
-import {need, npm} from './places.mjs';
-
-need(join(npm, 'playcanvas'), join(npm, 'playwright-core'));
-needBrowser();
-
-/** @type {any} */
-let started, opened;
-before(async () => {
-  started = await startBrowser();
-  opened = await openPage(started, 'playcanvas.html');
-});
-after(() => started.close());
-
-const show = (url, decoder) => opened.page.evaluate(([url, decoder]) => globalThis.show(url, decoder), [url, decoder]);
-
-const loadMany = (url, times) => opened.page.evaluate(([url, times]) => globalThis.loadMany(url, 'pool', times), [url, times]);
-
-loaderTests({show, loadMany, models: models(), started: () => started, opened: () => opened});
+testLoaderPage('playcanvas', 'playcanvas.html');
