@@ -14,10 +14,10 @@ constexpr Limits kNoLimits{kNone, kNone, kNone};
 
 template <class Statistics>
 Result<WalkedCandidate> walkWith(const Topology& topology, const Candidate& candidate) {
-  RangeWriter valences, degrees;
+  RangeWriter port;
   MeshOracle oracle(topology, candidate.components);
   const SectionHeader& header = candidate.header;
-  Script<Statistics, RangeWriter, MeshOracle> script(header, valences, degrees, oracle);
+  Script<Statistics, RangeWriter, MeshOracle> script(header, port, oracle);
   Walk walk(script, header.tie, header.leastDegree(), kNoLimits, topology.twin.size());
   if (const Error error = walk.run(); error != Error::kNone) return error;
   WalkedCandidate walked;
@@ -27,8 +27,7 @@ Result<WalkedCandidate> walkWith(const Topology& topology, const Candidate& cand
   walked.components = candidate.components;
   walked.on_boundary = std::move(walk).onBoundary();
   walked.dummy_umbrellas = std::move(walk).dummyUmbrellas();
-  walked.valences = std::move(valences);
-  walked.degrees = std::move(degrees);
+  walked.symbols = std::move(port);
   walked.splits = walk.splits();
   return walked;
 }
@@ -153,15 +152,11 @@ Result<Encoded> finishCandidate(TopologyPair& topologies, WalkedCandidate&& walk
   encoded.connectivity = std::move(walked.connectivity);
   walked.header.repairs = notes.any();
   if (notes.any()) {
-    RepairCoder coder(walked.valences, notes, walked.on_boundary, kNoLimits, encoded.connectivity);
+    RepairCoder coder(walked.symbols, notes, walked.on_boundary, kNoLimits, encoded.connectivity);
     if (const Error error = coder.run(); error != Error::kNone) return error;
   }
-  const std::vector<uint8_t> valence_bytes = std::move(walked.valences).finish();
-  const std::vector<uint8_t> degree_bytes = std::move(walked.degrees).finish();
   encoded.splits = walked.splits;
-  encoded.valence_bytes = static_cast<uint32_t>(valence_bytes.size());
-  encoded.degree_bytes = static_cast<uint32_t>(degree_bytes.size());
-  encoded.bytes = writeSection(walked.header, {valence_bytes, degree_bytes});
+  encoded.bytes = writeSection(walked.header, std::move(walked.symbols).finish());
   return encoded;
 }
 

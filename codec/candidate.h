@@ -20,7 +20,7 @@ struct Candidate {
   std::vector<ComponentPlan> components;
 };
 
-/// A candidate's walk: its streams, and which part of the topology came when.
+/// A candidate's walk: its symbols, and which part of the topology came when.
 struct WalkedCandidate {
   SectionHeader header;
   Connectivity connectivity;  ///< of the walked topology: in a dual, the dual's
@@ -28,10 +28,10 @@ struct WalkedCandidate {
   std::vector<ComponentPlan> components;
   std::vector<uint8_t> on_boundary;
   std::vector<Index> dummy_umbrellas;
-  RangeWriter valences, degrees;  ///< still open: repairs follow
+  RangeWriter symbols;  ///< still open: repairs follow
   Index splits = 0;
 
-  size_t bits() const { return valences.bits() + degrees.bits(); }
+  size_t bits() const { return symbols.bits(); }
 };
 
 /// The topology and, once asked for, its dual.

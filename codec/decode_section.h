@@ -27,22 +27,22 @@ inline Limits walkLimits(const SectionHeader& header, const Limits& limits) {
 
 // Room for the corners: as many as the limits allow, where that is no great loss; payloads state their counts.
 // Otherwise those of an irregular mesh: a regular mesh has more, but what a few bytes claim must not cost much.
-inline size_t expectedCorners(const SectionStreams& streams, const Limits& limits) {
+inline size_t expectedCorners(std::span<const uint8_t> symbols, const Limits& limits) {
   constexpr size_t kModest = size_t{1} << 21;
   if (limits.max_corners <= kModest) return limits.max_corners;
-  return std::min<size_t>(limits.max_corners, 4096 + 64 * (streams.valences.size() + streams.degrees.size()));
+  return std::min<size_t>(limits.max_corners, 4096 + 64 * symbols.size());
 }
 
-/// The streams of a section, with the statistics that its header names. `Port`: RangeReader, or one that does more.
+/// The symbols of a section, with the statistics that its header names. `Port`: RangeReader, or one that does more.
 template <class Port, class Statistics, class Observer>
-Result<Connectivity> decodeStreams(const SectionHeader& header, const SectionStreams& streams, const Limits& limits,
+Result<Connectivity> decodeSymbols(const SectionHeader& header, std::span<const uint8_t> symbols, const Limits& limits,
                                    Observer& observer) {
-  Port valences(streams.valences), degrees(streams.degrees);
-  observer.open(valences, degrees);
+  Port port(symbols);
+  observer.open(port);
   Blind oracle;
-  Watched<Script<Statistics, Port, Blind>, Observer> script(observer, header, valences, degrees, oracle);
+  Watched<Script<Statistics, Port, Blind>, Observer> script(observer, header, port, oracle);
   const Limits walk_limits = walkLimits(header, limits);
-  const size_t expected = expectedCorners(streams, walk_limits);
+  const size_t expected = expectedCorners(symbols, walk_limits);
   Walk walk(script, header.tie, header.leastDegree(), walk_limits, expected);
   if (const Error error = walk.run(); error != Error::kNone) return error;
   PrimalMesh primal{std::move(walk.connectivity()), {}, std::move(walk).onBoundary()};
@@ -54,11 +54,11 @@ Result<Connectivity> decodeStreams(const SectionHeader& header, const SectionStr
   Connectivity& mesh = primal.connectivity;
   if (header.repairs) {
     const RepairNotes unknown;
-    RepairCoder coder(valences, unknown, primal.on_boundary, limits, mesh);
+    RepairCoder coder(port, unknown, primal.on_boundary, limits, mesh);
     if (const Error error = coder.run(); error != Error::kNone) return error;
   }
-  if (valences.overrun() || degrees.overrun()) return Error::kTruncated;
-  if (valences.trailing() || degrees.trailing()) return Error::kTrailingBytes;
+  if (port.overrun()) return Error::kTruncated;
+  if (port.trailing()) return Error::kTrailingBytes;
   if (mesh.vertex_count > limits.max_vertices) return Error::kLimitExceeded;
   return std::move(mesh);
 }
@@ -67,10 +67,10 @@ Result<Connectivity> decodeStreams(const SectionHeader& header, const SectionStr
 template <class Port = RangeReader, class Observer>
 Result<Connectivity> decodeSection(std::span<const uint8_t> bytes, const Limits& limits, Observer& observer) {
   SectionHeader header;
-  const Result<SectionStreams> streams = readSection(bytes, header);
-  if (!streams) return streams.error();
+  const Result<std::span<const uint8_t>> symbols = readSection(bytes, header);
+  if (!symbols) return symbols.error();
   return withStatistics(header, [&]<class Statistics>(std::type_identity<Statistics>) {
-    return decodeStreams<Port, Statistics>(header, *streams, limits, observer);
+    return decodeSymbols<Port, Statistics>(header, *symbols, limits, observer);
   });
 }
 

@@ -26,11 +26,7 @@ struct Encoded {
   std::vector<Index> vertex_order;  ///< coded vertex -> input vertex: code per-vertex values in this order
   std::vector<Index> face_order;    ///< coded face -> input face
   std::vector<Index> corner_order;  ///< coded corner -> input corner
-
-  // Where the bytes went, for reports.
-  Index splits = 0;
-  uint32_t valence_bytes = 0;  ///< the valence stream (with splits)
-  uint32_t degree_bytes = 0;   ///< the degree stream; 0 when it is absent
+  Index splits = 0;                 ///< how many vertices were met a second time
 };
 
 /// Codes the connectivity of any polygon mesh without loss. O(n log n) time, O(n) memory.

@@ -32,27 +32,26 @@ struct Blind {
   static SplitAnswer split(const Gaps&) { return {}; }
 };
 
-/// Codes a mesh's symbols through two ports, one for valences and splits, one for degrees. The statistics decide how.
+/// Codes a mesh's symbols through a port. The statistics decide how.
 template <class Statistics, class Port, class Oracle>
 class Script {
  public:
   static constexpr bool kGathers = Statistics::kGathers, kSums = Statistics::kSums;
 
-  Script(const SectionHeader& header, Port& valences, Port& degrees, Oracle& oracle)
+  Script(const SectionHeader& header, Port& port, Oracle& oracle)
       : header_(header),
         degrees_known_(header.degreesKnown()),
         dummy_umbrellas_(header.hasDummyUmbrellas()),
         statistics_(header),
         log_(header.copies),
-        valences_(valences),
-        degrees_(degrees),
+        port_(port),
         oracle_(oracle) {}
 
   bool component() {
-    valences_.about(Topic::kComponents);
-    if (!component_.code(valences_, oracle_.component())) return false;
-    valences_.about(Topic::kCopies);
-    damaged_ |= !log_.begin(valences_, oracle_.original());
+    port_.about(Topic::kComponents);
+    if (!component_.code(port_, oracle_.component())) return false;
+    port_.about(Topic::kCopies);
+    damaged_ |= !log_.begin(port_, oracle_.original());
     return true;
   }
 
@@ -67,16 +66,16 @@ class Script {
   [[gnu::always_inline]] VertexAnswer vertex(const VertexQuestion& question) {
     const VertexAnswer truth = oracle_.vertex();
     if (log_.replaying()) return replayedVertex();
-    valences_.about(Topic::kValences);
-    return noted(statistics_.vertex(valences_, question, truth.valence), truth);
+    port_.about(Topic::kValences);
+    return noted(statistics_.vertex(port_, question, truth.valence), truth);
   }
 
   /// Of the first face of a component.
   VertexAnswer seedVertex(const VertexQuestion& question) {
     const VertexAnswer truth = oracle_.vertex();
     if (log_.replaying()) return replayedVertex();
-    valences_.about(Topic::kValences);
-    return noted(statistics_.seedVertex(valences_, question, truth.valence), truth);
+    port_.about(Topic::kValences);
+    return noted(statistics_.seedVertex(port_, question, truth.valence), truth);
   }
 
   SplitAnswer split(const VertexQuestion& question, const Gaps& gaps) {
@@ -85,17 +84,17 @@ class Script {
       const Index gap = log_.next();
       return {gap, log_.next()};
     }
-    valences_.about(Topic::kSplits);
-    const SplitAnswer answer = splits_.code(valences_, question, gaps, truth);
+    port_.about(Topic::kSplits);
+    const SplitAnswer answer = splits_.code(port_, question, gaps, truth);
     log_.add(answer.gap);
     log_.add(answer.slots_after);
     return answer;
   }
 
-  /// Must the walk stop? The streams ended before the mesh did, or named what does not exist.
-  bool faulty() const { return damaged_ || valences_.overrun(); }
+  /// Must the walk stop? The symbols ended before the mesh did, or named what does not exist.
+  bool faulty() const { return damaged_ || port_.overrun(); }
   Error fault() const {
-    if (valences_.overrun() || degrees_.overrun()) return Error::kTruncated;
+    if (port_.overrun()) return Error::kTruncated;
     return damaged_ ? Error::kMalformed : Error::kNone;
   }
 
@@ -110,10 +109,9 @@ class Script {
       const Index symbol = replayed();
       return {symbol >> 1, (symbol & 1) != 0};
     }
-    degrees_.about(Topic::kDegrees);
-    const FaceAnswer answer = statistics_.face(degrees_, question, truth);
+    port_.about(Topic::kDegrees);
+    const FaceAnswer answer = statistics_.face(port_, question, truth);
     log_.add(answer.degree << 1 | static_cast<Index>(answer.dummy));
-    damaged_ |= degrees_.overrun();
     return answer;
   }
 
@@ -132,8 +130,8 @@ class Script {
   [[gnu::always_inline]] VertexAnswer noted(Index valence, const VertexAnswer& truth) {
     VertexAnswer answer{valence, false};
     if (dummy_umbrellas_ && valence != 0) {
-      valences_.about(Topic::kHoles);
-      answer.dummy = dummy_[std::min(valence, Index{15})].code(valences_, truth.dummy);
+      port_.about(Topic::kHoles);
+      answer.dummy = dummy_[std::min(valence, Index{15})].code(port_, truth.dummy);
     }
     log_.add(valence << 1 | static_cast<Index>(answer.dummy));
     return answer;
@@ -143,8 +141,7 @@ class Script {
   bool degrees_known_, dummy_umbrellas_;
   Statistics statistics_;
   ComponentLog log_;
-  Port& valences_;
-  Port& degrees_;
+  Port& port_;
   Oracle& oracle_;
   Bit component_;
   std::array<Bit, 16> dummy_;  // by valence

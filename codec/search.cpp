@@ -119,6 +119,15 @@ class Search {
       unmatched.header.match = false;
       attempt(std::move(unmatched));
     }
+    if (options_.effort >= 2) tryMoreLines();
+  }
+
+  // Fewer contexts share a line then; but a decoder has more to clear.
+  void tryMoreLines() {
+    for (int more = 0; more < 2; ++more) {
+      Candidate candidate = best_candidate_;
+      if (++candidate.header.table_bits <= mostTableBits(best_.bits() / 8)) attempt(std::move(candidate));
+    }
   }
 
   void tryDual() {

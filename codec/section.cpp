@@ -9,20 +9,18 @@ constexpr int kTableShift = 3, kLeastTableBits = 5;
 
 }  // namespace
 
-std::vector<uint8_t> writeSection(const SectionHeader& header, const SectionStreams& streams) {
+std::vector<uint8_t> writeSection(const SectionHeader& header, std::span<const uint8_t> symbols) {
   ByteWriter writer;
   writer.byte(static_cast<uint8_t>(header.uniform_degree | (header.closed ? kClosed : 0) |
                                    (header.tie == TieRule::kNewestFirst ? kNewestFirst : 0) |
                                    (header.repairs ? kRepairs : 0) | (header.copies ? kCopies : 0)));
   writer.byte(static_cast<uint8_t>(static_cast<int>(header.profile) | (header.match ? kMatch : 0) |
                                    (header.dual ? kDual : 0) | (header.table_bits - kLeastTableBits) << kTableShift));
-  if (!header.degreesKnown()) writer.varint(static_cast<uint32_t>(streams.degrees.size()));
-  writer.append(streams.degrees);
-  writer.append(streams.valences);
+  writer.append(symbols);
   return std::move(writer).take();
 }
 
-Result<SectionStreams> readSection(std::span<const uint8_t> bytes, SectionHeader& header) {
+Result<std::span<const uint8_t>> readSection(std::span<const uint8_t> bytes, SectionHeader& header) {
   ByteReader reader(bytes);
   const uint8_t flags = reader.byte();
   header.uniform_degree = flags & kDegreeMask;
@@ -35,16 +33,13 @@ Result<SectionStreams> readSection(std::span<const uint8_t> bytes, SectionHeader
   header.match = statistics & kMatch;
   header.dual = statistics & kDual;
   header.table_bits = ((statistics & kTableMask) >> kTableShift) + kLeastTableBits;
-  const uint32_t degree_bytes = header.degreesKnown() ? 0 : reader.varint();
-  SectionStreams streams;
-  streams.degrees = reader.take(degree_bytes);
-  streams.valences = reader.take(reader.remaining());
+  const std::span<const uint8_t> symbols = reader.take(reader.remaining());
   if (reader.error() != Error::kNone) return reader.error();
   const bool bad_degree = header.uniform_degree != 0 && header.uniform_degree < header.leastDegree();
   if (statistics & kReserved || bad_degree || header.table_bits > mostTableBits(bytes.size())) {
     return Error::kMalformed;
   }
-  return streams;
+  return symbols;
 }
 
 }  // namespace tutte

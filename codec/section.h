@@ -23,7 +23,7 @@ struct SectionHeader {
   Index uniform_degree = 0;  ///< all faces have this degree, 3 to 15; 0: degrees are coded
   bool dual = false;         ///< the walk is over the dual mesh: its faces are the umbrellas, its umbrellas the faces
   bool closed = false;       ///< there are no dummy faces
-  bool repairs = false;      ///< the valence stream ends with repairs
+  bool repairs = false;      ///< the symbols end with repairs
   bool copies = false;       ///< some components repeat earlier ones
   TieRule tie = TieRule::kOldestFirst;
 
@@ -39,22 +39,17 @@ struct SectionHeader {
   Index leastDegree() const { return dual ? 2 : 3; }
 };
 
-/// The two streams of a section.
-struct SectionStreams {
-  std::span<const uint8_t> valences, degrees;
-};
-
 /// The most lines per context that a section of this many bytes may ask for: what a few bytes claim must not cost
 /// megabytes.
 constexpr int mostTableBits(size_t section_bytes) {
   return std::clamp(static_cast<int>(std::bit_width(section_bytes)) + 1, 7, 12);
 }
 
-/// Head and streams in one piece: two bytes of flags, the length of the degree stream unless degrees are known, the
-/// degree stream, and to the end the valence stream.
-std::vector<uint8_t> writeSection(const SectionHeader& header, const SectionStreams& streams);
+/// Head and symbols in one piece: two bytes of flags, and to the end the valences and degrees as the range coder made
+/// them, one by one as the walk asks for them.
+std::vector<uint8_t> writeSection(const SectionHeader& header, std::span<const uint8_t> symbols);
 
-/// The reverse. The spans point into `bytes`.
-Result<SectionStreams> readSection(std::span<const uint8_t> bytes, SectionHeader& header);
+/// The reverse: the symbols, a part of `bytes`.
+Result<std::span<const uint8_t>> readSection(std::span<const uint8_t> bytes, SectionHeader& header);
 
 }  // namespace tutte

@@ -19,11 +19,12 @@ class CountingReader : public RangeReader {
     since_ = {};
   }
 
-  // What was read since about() belongs to another topic.
-  void move(Topic topic) {
-    add(topic_, {-since_.bits, 0 - since_.decisions});
-    add(topic, since_);
-    about(topic);
+  // What was read since about(from) belongs to another topic. In a copy of a component nothing was.
+  void move(Topic from, Topic to) {
+    if (topic_ != from) return;
+    add(from, {-since_.bits, 0 - since_.decisions});
+    add(to, since_);
+    about(to);
   }
 
   bool code(Probability one, bool = false) {
@@ -60,30 +61,27 @@ class CountingReader : public RangeReader {
   TopicBits since_;
 };
 
-// Tells the readers what only the answers show: that a valence was a split, a degree that of a dummy face.
+// Tells the reader what only the answers show: that a valence was a split, a degree that of a dummy face.
 class Accountant : public Unwatched {
  public:
   explicit Accountant(Spending& spending) : spending_(spending) {}
 
-  void open(CountingReader& valences, CountingReader& degrees) {
-    valences_ = &valences;
-    degrees_ = &degrees;
-    valences.reportTo(spending_);
-    degrees.reportTo(spending_);
+  void open(CountingReader& reader) {
+    reader_ = &reader;
+    reader.reportTo(spending_);
   }
 
   void face(const FaceQuestion&, const FaceAnswer& answer) {
-    if (answer.dummy) degrees_->move(Topic::kHoles);
+    if (answer.dummy) reader_->move(Topic::kDegrees, Topic::kHoles);
   }
 
   void vertex(const VertexQuestion&, Index valence) {
-    if (valence == 0) valences_->move(Topic::kSplits);
+    if (valence == 0) reader_->move(Topic::kValences, Topic::kSplits);
   }
 
  private:
   Spending& spending_;
-  CountingReader* valences_ = nullptr;
-  CountingReader* degrees_ = nullptr;
+  CountingReader* reader_ = nullptr;
 };
 
 }  // namespace
@@ -100,11 +98,11 @@ Result<Spending> spendingOf(std::span<const uint8_t> section, const Limits& limi
   const Result<Connectivity> mesh = decodeSection<CountingReader>(section, limits, accountant);
   if (!mesh) return mesh.error();
   SectionHeader header;
-  const Result<SectionStreams> streams = readSection(section, header);
-  if (!streams) return streams.error();
-  const double stream_bits = 8.0 * static_cast<double>(streams->valences.size() + streams->degrees.size());
-  spending.head_bits = 8.0 * static_cast<double>(section.size()) - stream_bits;
-  spending.end_bits = stream_bits;
+  const Result<std::span<const uint8_t>> symbols = readSection(section, header);
+  if (!symbols) return symbols.error();
+  const double symbol_bits = 8.0 * static_cast<double>(symbols->size());
+  spending.head_bits = 8.0 * static_cast<double>(section.size()) - symbol_bits;
+  spending.end_bits = symbol_bits;
   for (const TopicBits& topic : spending.topics) spending.end_bits -= topic.bits;
   return spending;
 }

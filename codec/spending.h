@@ -25,7 +25,7 @@ struct TopicBits {
 struct Spending {
   std::array<TopicBits, kTopicCount> topics;
   double head_bits = 0;
-  double end_bits = 0;  ///< what ending the streams at whole bytes costs, or, below 0, saves
+  double end_bits = 0;  ///< what ending the symbols at a whole byte costs, or, below 0, saves
 
   const TopicBits& operator[](Topic topic) const { return topics[static_cast<size_t>(topic)]; }
 };

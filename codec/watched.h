@@ -13,7 +13,7 @@ namespace tutte {
 struct Unwatched {
   static constexpr bool kSums = false;  ///< wants sums of valences
   template <class Port>
-  static void open(Port& /*valences*/, Port& /*degrees*/) {}
+  static void open(Port&) {}
   static void component(bool) {}
   static void face(const FaceQuestion&, const FaceAnswer&) {}
   static void vertex(const VertexQuestion&, Index) {}

@@ -68,8 +68,6 @@ class Packer {
     if (!encoded) return failureOf(encoded.error(), "connectivity");
     encoded_ = std::move(*encoded);
     packed_.splits = encoded_.splits;
-    packed_.valence_bytes = encoded_.valence_bytes;
-    packed_.degree_bytes = encoded_.degree_bytes;
     packed_.connectivity_bytes = static_cast<uint32_t>(encoded_.bytes.size());
     parts_.set(Section::kConnectivity, std::move(encoded_.bytes));
     decoded_polygons_ = polygonsOf(encoded_.connectivity, &coded_of_decoded_);

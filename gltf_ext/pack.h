@@ -65,9 +65,7 @@ struct Packed {
 
   // For reports.
   Index splits = 0;
-  uint32_t connectivity_bytes = 0;  ///< the connectivity section: header, both streams, splits, joins
-  uint32_t valence_bytes = 0;
-  uint32_t degree_bytes = 0;
+  uint32_t connectivity_bytes = 0;  ///< the connectivity section: header, valences, degrees, splits, joins
   uint32_t seam_bytes = 0;
   uint32_t attribute_bytes = 0;  ///< seams and attribute section
 };

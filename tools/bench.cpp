@@ -6,6 +6,7 @@
 
 #include "codec/decode.h"
 #include "codec/payload.h"
+#include "codec/spending.h"
 #include "gltf_ext/compress.h"
 #include "gltf_ext/triangulate.h"
 #include "gltf_ext/welding.h"
@@ -34,6 +35,18 @@ auto timed(double& best, Step step) {
   const double seconds = CpuClock::secondsSince(start);
   best = best == 0 ? seconds : std::min(best, seconds);
   return result;
+}
+
+/// What the valences and the degrees take of a connectivity section; never more than all of it.
+SymbolBytes symbolBytesOf(std::span<const uint8_t> section) {
+  const Result<Spending> spending = spendingOf(section);
+  if (!spending) return {};
+  const auto bytesOf = [&](Topic symbols, Topic with, size_t most) {
+    const double bits = (*spending)[symbols].bits + (*spending)[with].bits;
+    return std::min<uint64_t>(static_cast<uint64_t>(bits / 8), most);
+  };
+  const uint64_t valences = bytesOf(Topic::kValences, Topic::kSplits, section.size());
+  return {valences, bytesOf(Topic::kDegrees, Topic::kHoles, section.size() - valences)};
 }
 
 /// One mesh through our whole codec, again and again.
@@ -66,8 +79,7 @@ class OurCoder {
     figures.wedges = mesh_.wedge_count;
     figures.faces = mesh_.polygons.face_degrees.size();
     figures.splits = packed_.splits;
-    figures.valence_bytes = packed_.valence_bytes;
-    figures.degree_bytes = packed_.degree_bytes;
+    figures.symbols = symbolBytesOf((*parsePayload(packed_.bytes))[Section::kConnectivity]);
     figures_.connectivity_bytes = packed_.connectivity_bytes;
     figures_.seam_bytes = packed_.seam_bytes;
     figures_.attribute_bytes = packed_.attribute_bytes;
@@ -94,8 +106,7 @@ Outcome<Done> runProfile(const PolygonMesh& mesh, EncodeOptions options, Profile
   if (!encoded) return failureOf(encoded.error(), "connectivity");
   const auto decoded = timed(figures.decode_seconds, [&] { return decode(encoded->bytes, sizeOf(mesh.polygons)); });
   if (!decoded) return failureOf(decoded.error(), "connectivity");
-  figures.valence_bytes = encoded->valence_bytes;
-  figures.degree_bytes = encoded->degree_bytes;
+  if (figures.connectivity_bytes == 0) figures.symbols = symbolBytesOf(encoded->bytes);
   figures.connectivity_bytes = encoded->bytes.size();
   return Done{};
 }

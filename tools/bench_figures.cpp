@@ -28,9 +28,14 @@ CoderFigures& CoderFigures::operator+=(const CoderFigures& other) {
   return *this;
 }
 
+SymbolBytes& SymbolBytes::operator+=(const SymbolBytes& other) {
+  valences += other.valences;
+  degrees += other.degrees;
+  return *this;
+}
+
 ProfileFigures& ProfileFigures::operator+=(const ProfileFigures& other) {
-  valence_bytes += other.valence_bytes;
-  degree_bytes += other.degree_bytes;
+  symbols += other.symbols;
   connectivity_bytes += other.connectivity_bytes;
   encode_seconds += other.encode_seconds;
   decode_seconds += other.decode_seconds;
@@ -46,8 +51,7 @@ BenchFigures& BenchFigures::operator+=(const BenchFigures& other) {
   wedges += other.wedges;
   faces += other.faces;
   splits += other.splits;
-  valence_bytes += other.valence_bytes;
-  degree_bytes += other.degree_bytes;
+  symbols += other.symbols;
   ours += other.ours;
   for (const auto& [profile, figures] : other.profiles) profiles[profile] += figures;
   addTo(draco_cl7, other.draco_cl7);

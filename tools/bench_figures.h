@@ -26,10 +26,17 @@ struct CoderFigures {
   CoderFigures& operator+=(const CoderFigures& other);
 };
 
+/// Whole bytes of the information in a connectivity section's symbols.
+struct SymbolBytes {
+  uint64_t valences = 0;  ///< with splits
+  uint64_t degrees = 0;   ///< with holes
+
+  SymbolBytes& operator+=(const SymbolBytes& other);
+};
+
 /// The connectivity alone, with one profile.
 struct ProfileFigures {
-  uint64_t valence_bytes = 0;
-  uint64_t degree_bytes = 0;
+  SymbolBytes symbols;
   uint64_t connectivity_bytes = 0;
   double encode_seconds = 0;
   double decode_seconds = 0;
@@ -41,7 +48,7 @@ struct ProfileFigures {
 struct BenchFigures {
   std::string file;
   uint64_t vertices = 0, wedges = 0, faces = 0, splits = 0;
-  uint64_t valence_bytes = 0, degree_bytes = 0;
+  SymbolBytes symbols;
   CoderFigures ours;  ///< attribute_bytes include seams; total_bytes are the payloads
   std::map<Profile, ProfileFigures> profiles;
   std::optional<CoderFigures> draco_cl7, draco_cl10, draco_polygons;  ///< nothing where Draco refuses the mesh
@@ -50,7 +57,7 @@ struct BenchFigures {
   uint64_t paper_counterpart = 0;       ///< our connectivity bytes of those models
   uint64_t glb_bytes = 0;               ///< of the whole file, with its JSON
 
-  uint64_t otherConnectivityBytes() const { return ours.connectivity_bytes - valence_bytes - degree_bytes; }
+  uint64_t otherConnectivityBytes() const { return ours.connectivity_bytes - symbols.valences - symbols.degrees; }
   double bitsPerVertex() const;
 
   /// Draco's figures stay only where both have them.

@@ -36,19 +36,6 @@ size_t edgesOf(const Connectivity& connectivity) {
 
 Json sectionJson(const char* name, size_t bytes) { return {{"name", name}, {"bytes", bytes}}; }
 
-/// The streams inside the connectivity section.
-Json streamsOf(std::span<const uint8_t> section) {
-  SectionHeader header;
-  const Result<SectionStreams> streams = readSection(section, header);
-  if (!streams) return Json::array();
-  Json list = Json::array();
-  const size_t parts = streams->valences.size() + streams->degrees.size();
-  list.push_back(sectionJson("header", section.size() - parts));
-  list.push_back(sectionJson("valences", streams->valences.size()));
-  list.push_back(sectionJson("degrees", streams->degrees.size()));
-  return list;
-}
-
 /// What the encoder chose, as the head of the connectivity section says it.
 Json choicesOf(std::span<const uint8_t> section) {
   static constexpr const char* kProfiles[] = {"paper", "fast", "default", "small"};
@@ -77,7 +64,7 @@ Outcome<Json> classesOf(std::span<const uint8_t> section) {
     const TopicBits& bits = (*spending)[topic];
     if (bits.decisions > 0) list.push_back(classJson(nameOf(topic), bits.bits, bits.decisions, all_bits));
   }
-  list.push_back(classJson("ends of streams", spending->end_bits, 0, all_bits));
+  list.push_back(classJson("end", spending->end_bits, 0, all_bits));
   return list;
 }
 
@@ -131,7 +118,6 @@ Outcome<Json> describe(const PayloadBytes& payload) {
     if (section == Section::kConnectivity) {
       Outcome<Json> classes = classesOf(payload.view[section]);
       if (!classes) return classes.error();
-      entry["streams"] = streamsOf(payload.view[section]);
       entry["classes"] = *std::move(classes);
     }
     out["sections"].push_back(std::move(entry));
@@ -181,13 +167,7 @@ void print(const Json& payload, size_t number) {
   }
   std::printf("  %-22s %s\n", "connectivity coded as", choices.c_str());
   std::printf("  %-22s %12s %10s %10s %10s\n", "section", "bytes", "b/vertex", "b/face", "b/edge");
-  for (const Json& section : payload["sections"]) {
-    printRow(payload, section["name"], section);
-    if (!section.contains("streams")) continue;
-    for (const Json& stream : section["streams"]) {
-      printRow(payload, "  " + stream["name"].get<std::string>(), stream);
-    }
-  }
+  for (const Json& section : payload["sections"]) printRow(payload, section["name"], section);
   for (const Json& section : payload["sections"]) {
     if (section.contains("classes")) printClasses(section);
   }
@@ -227,8 +207,8 @@ void addInspect(CLI::App& app, Action& action) {
   command.add_flag("--json", *as_json, "print one JSON object");
   addExamples(command,
               "  tutte inspect model.glb\n  tutte inspect --json model.glb\n\n"
-              "Connectivity by class: head, one row per kind of symbol, and what ending the streams at whole bytes\n"
-              "costs or (negative) saves; in sum 8 times the section's bytes. In a dual, valences stand for degrees\n"
+              "Connectivity by class: head, one row per kind of symbol, and what ending at a whole byte costs or\n"
+              "(negative) saves; in sum 8 times the section's bytes. In a dual, valences stand for degrees\n"
               "and degrees for valences. Sections are exact bytes. Vertices in one place may be coded as one point.");
   command.callback([input, as_json, &action] { action = [input, as_json] { return inspect(*input, *as_json); }; });
 }

@@ -38,9 +38,9 @@ TEST(Spending, AccountsForEveryBit) {
         sum += topic.bits;
       }
       EXPECT_NEAR(sum, 8.0 * static_cast<double>(bytes.size()), 1e-6);
-      // Two streams end at whole bytes; the last word of each loses its zeros.
-      EXPECT_LE(spending->end_bits, 24);
-      EXPECT_GE(spending->end_bits, -64);
+      // The symbols end at a whole byte; their last word loses its zeros.
+      EXPECT_LE(spending->end_bits, 16);
+      EXPECT_GE(spending->end_bits, -32);
     }
   }
 }

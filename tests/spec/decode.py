@@ -41,12 +41,7 @@ class Section:
         self.degrees_known = not self.dummy_faces and self.uniform_degree
         require(statistics < 128 and not 0 < self.uniform_degree < self.least_degree, 'flags')
         require(self.table_bits <= min(max(len(data).bit_length() + 1, 7), 12), 'tables too large for the section')
-        degrees = 0
-        if not self.degrees_known:
-            degrees, at = varint(data, at)
-        require(at + degrees <= len(data), 'the section ends in a stream')
-        self.degree_stream = data[at:at + degrees]
-        self.valence_stream = data[at + degrees:]
+        self.symbols = data[at:]
 
 
 # B.9 Duals
@@ -206,11 +201,10 @@ def decode(data, trace=None):
     require(not (walk.split_read and repeats_umbrella(mesh)), 'a face visits an umbrella twice')
     mesh.flipped = [0] * len(mesh.degrees)
     if section.repairs:
-        repair(walk.symbols.valences, mesh, on_boundary)
+        repair(walk.symbols.stream, mesh, on_boundary)
     else:
         mesh.vertices, mesh.vertex_count = list(range(mesh.umbrella_count)), mesh.umbrella_count
-    for stream in (walk.symbols.valences, walk.symbols.degrees):
-        stream.finish()
+    walk.symbols.stream.finish()
     return mesh
 
 

@@ -288,8 +288,7 @@ class Walk:
 class Symbols:
     def __init__(self, section, walk):
         self.section, self.walk = section, walk
-        self.degrees = RangeDecoder(section.degree_stream)
-        self.valences = RangeDecoder(section.valence_stream)
+        self.stream = RangeDecoder(section.symbols)
         self.statistics = Mixed(section) if section.profile else Paper(section)
         self.component_model = Bit()
         self.dummy = [Bit() for _ in range(16)]
@@ -300,7 +299,7 @@ class Symbols:
         self.components, self.original = 0, None
 
     def component(self):
-        if not self.component_model.read(self.valences):
+        if not self.component_model.read(self.stream):
             return False
         self.replayed = self.original = None
         if self.section.copies:
@@ -309,8 +308,8 @@ class Symbols:
         return True
 
     def begin_copy(self):
-        if self.recent and self.copy.read(self.valences):
-            rank = self.rank.read(self.valences)
+        if self.recent and self.copy.read(self.stream):
+            rank = self.rank.read(self.stream)
             require(rank < len(self.recent), 'a copy of no component')
             self.recent.insert(0, self.recent.pop(rank))
             self.original, self.replayed = self.recent[0]
@@ -327,14 +326,14 @@ class Symbols:
         return self.log[-1]
 
     def face(self, start, edges, closed):
-        return self.coded(lambda: self.statistics.face(self.degrees, self.walk, start, edges, closed))
+        return self.coded(lambda: self.statistics.face(self.stream, self.walk, start, edges, closed))
 
     def vertex(self):
         return self.coded(self.read_vertex)
 
     def read_vertex(self):
-        valence = self.statistics.vertex(self.valences, self.walk)
-        dummy = self.section.dummy_umbrellas and valence and self.dummy[min(valence, 15)].read(self.valences)
+        valence = self.statistics.vertex(self.stream, self.walk)
+        dummy = self.section.dummy_umbrellas and valence and self.dummy[min(valence, 15)].read(self.stream)
         self.walk.trace('vertex', valence, dummy)
         return valence, bool(dummy)
 
@@ -344,15 +343,15 @@ class Symbols:
     def read_split(self):
         last = int(self.walk.missing == 1)
         least = 2 + last
-        if self.near[last].read(self.valences):
-            g = self.gap_at(self.backward[last].read(self.valences), self.distance[last].read(self.valences), least)
+        if self.near[last].read(self.stream):
+            g = self.gap_at(self.backward[last].read(self.stream), self.distance[last].read(self.stream), least)
         else:
-            g = self.valences.uniform(len(self.walk.gaps))
+            g = self.stream.uniform(len(self.walk.gaps))
         require(self.walk.gaps[g].free >= least, 'a split where there is no room')
         choices = self.walk.gaps[g].free - least + 1
-        if choices == 1 or self.first[last][min(choices, 4)].read(self.valences):
+        if choices == 1 or self.first[last][min(choices, 4)].read(self.stream):
             return g, last
-        return g, last + 1 + self.valences.uniform(choices - 1)
+        return g, last + 1 + self.stream.uniform(choices - 1)
 
     def gap_at(self, backward, distance, least):
         walk = self.walk

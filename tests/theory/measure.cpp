@@ -18,8 +18,7 @@ Coded code(PolygonView mesh, Profile profile, int effort) {
     std::fprintf(stderr, "theory: a mesh does not come back\n");
     std::exit(1);
   }
-  return {encoded->bytes.size(), encoded->valence_bytes, encoded->degree_bytes, encoded->splits,
-          (*spending)[Topic::kSplits].bits};
+  return {encoded->bytes.size(), encoded->splits, (*spending)[Topic::kSplits].bits};
 }
 
 AllCoded codeAll(PolygonView mesh, int effort) {

@@ -14,7 +14,6 @@ inline constexpr std::array<const char*, kProfileCount> kProfileNames = {"paper"
 /// What one profile makes of a mesh.
 struct Coded {
   size_t bytes = 0;
-  size_t valence_bytes = 0, degree_bytes = 0;
   Index splits = 0;
   double split_bits = 0;  ///< that there are splits, and where
 };

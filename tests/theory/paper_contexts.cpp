@@ -41,13 +41,13 @@ class Masked : public PaperStatistics {
 };
 
 template <bool kValenceContexts, bool kDegreeContexts>
-size_t streamBytes(const Topology& topology, const std::vector<ComponentPlan>& plans, const SectionHeader& header) {
-  RangeWriter valences, degrees;
+size_t symbolBytes(const Topology& topology, const std::vector<ComponentPlan>& plans, const SectionHeader& header) {
+  RangeWriter port;
   MeshOracle oracle(topology, plans);
-  Script<Masked<kValenceContexts, kDegreeContexts>, RangeWriter, MeshOracle> script(header, valences, degrees, oracle);
+  Script<Masked<kValenceContexts, kDegreeContexts>, RangeWriter, MeshOracle> script(header, port, oracle);
   Walk walk(script, header.tie, header.leastDegree(), Limits{kNone, kNone, kNone}, topology.twin.size());
   if (walk.run() != Error::kNone) return 0;
-  return std::move(valences).finish().size() + std::move(degrees).finish().size();
+  return std::move(port).finish().size();
 }
 
 }  // namespace
@@ -59,10 +59,10 @@ PaperBytes paperBytes(PolygonView mesh) {
   if (!encoded || !topology || !readSection(encoded->bytes, header)) return {};
   const std::vector<ComponentPlan> plans = planComponents(*topology, Repeats::kNone);
   // The head, and what repairs the mesh, are the same in all of them.
-  const size_t bytes = encoded->bytes.size(), streams = streamBytes<true, true>(*topology, plans, header);
-  return {bytes, bytes - streams + streamBytes<true, false>(*topology, plans, header),
-          bytes - streams + streamBytes<false, true>(*topology, plans, header),
-          bytes - streams + streamBytes<false, false>(*topology, plans, header)};
+  const size_t bytes = encoded->bytes.size(), symbols = symbolBytes<true, true>(*topology, plans, header);
+  return {bytes, bytes - symbols + symbolBytes<true, false>(*topology, plans, header),
+          bytes - symbols + symbolBytes<false, true>(*topology, plans, header),
+          bytes - symbols + symbolBytes<false, false>(*topology, plans, header)};
 }
 
 }  // namespace tutte::theory
