@@ -7,6 +7,7 @@
 
 #include "gltf_ext/attribute_coding.h"
 #include "gltf_ext/attribute_words.h"
+#include "gltf_ext/fixed_sum.h"
 #include "gltf_ext/numeral_choice.h"
 
 namespace tutte {
@@ -274,7 +275,9 @@ AttributeCoding chooseCoding(const Attribute& attribute, const PackOptions& opti
   const int bits = quantisationBits(name, options);
   const bool wanted = bits > 0 || boundFor(name, options.errors).size > 0;
   const bool lossy = attribute.type == ComponentType::kFloat && wanted;
-  return lossy ? lossyCoding(attribute, name, bits, options) : exactCoding(attribute, options);
+  AttributeCoding coding = lossy ? lossyCoding(attribute, name, bits, options) : exactCoding(attribute, options);
+  fixSum(attribute, name, coding);
+  return coding;
 }
 
 }  // namespace tutte

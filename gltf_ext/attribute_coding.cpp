@@ -36,6 +36,8 @@ float readFloat(ByteReader& in) { return std::bit_cast<float>(in.u32()); }
 constexpr uint8_t kRelationMask = 3, kOwnSystems = 4, kDigitsMask = 31, kDecimal = 32;
 constexpr int kLeastBias = 150;
 
+constexpr uint8_t kSummed = 128;  // added to the kind
+
 bool sameSystems(const NumeralFormat& format) {
   return std::all_of(format.systems.begin(), format.systems.begin() + format.components,
                      [&](const NumeralSystem& system) { return system == format.systems[0]; });
@@ -115,11 +117,14 @@ void readFields(ByteReader& in, const Attribute& attribute, AttributeCoding& cod
   if (coding.kind == CodingKind::kOctahedralSigned) coding.signs = in.byte();
   if (coding.kind == CodingKind::kWords || coding.kind == CodingKind::kFractions) coding.base = in.u32();
   if (coding.kind == CodingKind::kFractions) coding.denominator = in.varint();
+  if (coding.summed) coding.total = in.varint();
 }
 
 }  // namespace
 
 bool isValid(const AttributeCoding& coding, const Attribute& attribute) {
+  const bool sums = coding.kind == CodingKind::kWords || coding.kind == CodingKind::kFractions;
+  if (coding.summed && (!sums || attribute.components < 2)) return false;
   const bool is_float = attribute.type == ComponentType::kFloat;
   switch (coding.kind) {
     case CodingKind::kConstant: return true;
@@ -160,6 +165,8 @@ double errorBound(const AttributeCoding& coding) {
   }
 }
 
+namespace {
+
 const char* nameOf(CodingKind kind) {
   switch (kind) {
     case CodingKind::kConstant: return "constant";
@@ -176,8 +183,14 @@ const char* nameOf(CodingKind kind) {
   return "unknown";
 }
 
+}  // namespace
+
+std::string nameOf(const AttributeCoding& coding) {
+  return std::string(nameOf(coding.kind)) + (coding.summed ? " with a fixed sum" : "");
+}
+
 void writeCoding(const AttributeCoding& coding, const Attribute& attribute, ByteWriter& out) {
-  out.byte(static_cast<uint8_t>(coding.kind));
+  out.byte(static_cast<uint8_t>(static_cast<int>(coding.kind) | (coding.summed ? kSummed : 0)));
   if (coding.kind == CodingKind::kConstant) return out.append(coding.constant);
   if (coding.kind == CodingKind::kSplitWords) return;
   if (coding.kind == CodingKind::kNumerals) return writeNumerals(coding.numerals, out);
@@ -195,13 +208,15 @@ void writeCoding(const AttributeCoding& coding, const Attribute& attribute, Byte
   if (coding.kind == CodingKind::kOctahedralSigned) out.byte(coding.signs);
   if (coding.kind == CodingKind::kWords || coding.kind == CodingKind::kFractions) out.u32(coding.base);
   if (coding.kind == CodingKind::kFractions) out.varint(coding.denominator);
+  if (coding.summed) out.varint(coding.total);
 }
 
 std::optional<AttributeCoding> readCoding(ByteReader& in, const Attribute& attribute) {
   AttributeCoding coding;
-  const uint8_t kind = in.byte();
+  const uint8_t head = in.byte(), kind = head & (kSummed - 1);
   if (kind > static_cast<uint8_t>(CodingKind::kGrid)) return std::nullopt;
   coding.kind = static_cast<CodingKind>(kind);
+  coding.summed = (head & kSummed) != 0;
   readFields(in, attribute, coding);
   if (in.error() != Error::kNone || !isValid(coding, attribute)) return std::nullopt;
   return coding;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "codec/bytes.h"
@@ -44,6 +45,8 @@ struct AttributeCoding {
   uint8_t signs = 0;               ///< kOctahedralSigned: 0 all -1, 1 all 1, 2 mixed
   uint32_t base = 0;               ///< kWords, kFractions
   uint32_t denominator = 1;        ///< kFractions
+  bool summed = false;             ///< kWords, kFractions: the first component is what the others leave of `total`
+  uint32_t total = 0;              ///< if summed: of the words; of the numerators k, modulo 2^32 a signed number
   std::vector<uint8_t> constant;   ///< kConstant: one value
   NumeralFormat numerals;          ///< kNumerals
   float step = 0;                  ///< kGrid
@@ -83,11 +86,12 @@ std::optional<AttributeCoding> paletteCoding(const Attribute& attribute);
 double errorBound(const AttributeCoding& coding);
 
 /// What `inspect` calls it.
-const char* nameOf(CodingKind kind);
+std::string nameOf(const AttributeCoding& coding);
 
 /// The coding that the options ask for:
 /// - one value everywhere: kConstant;
 /// - integers: words;
+/// - words and fractions of WEIGHTS and custom attributes whose components have one sum everywhere: summed;
 /// - floats of JOINTS and WEIGHTS, of attributes with 0 bits, and those that are not finite: without loss, as fractions
 ///   of 1, 255 or 65535 if all of them are, or of a power of ten, otherwise as numerals. (If Draco is to code them, as
 ///   fractions of the former or words.) Other floats are such fractions too, when that costs no more bits;

@@ -50,6 +50,15 @@ void forEachComponent(const Attribute& attribute, Each each) {
   for (size_t i = 0; i * size < attribute.data.size(); ++i) each(i, &attribute.data[i * size]);
 }
 
+/// For each component that planes hold: without the first, where a sum tells it.
+template <class Each>
+void forEachCoded(const Attribute& attribute, const AttributeCoding& coding, Each each) {
+  size_t number = 0;
+  forEachComponent(attribute, [&](size_t i, const uint8_t* data) {
+    if (!coding.summed || i % attribute.components != 0) each(number++, data);
+  });
+}
+
 void quantise(const Attribute& attribute, const AttributeCoding& coding, Plane& out) {
   const double steps = largest(coding.bits);
   forEachComponent(attribute, [&](size_t i, const uint8_t* data) {
@@ -70,7 +79,7 @@ void toOctahedron(const Attribute& attribute, const AttributeCoding& coding, std
 }
 
 void toWords(const Attribute& attribute, const AttributeCoding& coding, std::span<Plane> planes) {
-  forEachComponent(attribute, [&](size_t i, const uint8_t* data) {
+  forEachCoded(attribute, coding, [&](size_t i, const uint8_t* data) {
     const uint32_t word = wordOf(data, attribute.type);
     if (coding.kind == CodingKind::kWords) {
       planes[0].values[i] = static_cast<int32_t>(word - coding.base);
@@ -82,7 +91,7 @@ void toWords(const Attribute& attribute, const AttributeCoding& coding, std::spa
 }
 
 void toFractions(const Attribute& attribute, const AttributeCoding& coding, Plane& out) {
-  forEachComponent(attribute, [&](size_t i, const uint8_t* data) {
+  forEachCoded(attribute, coding, [&](size_t i, const uint8_t* data) {
     const auto numerator = static_cast<int32_t>(std::nearbyint(double{loadFloat(data)} * coding.denominator));
     out.values[i] = static_cast<int32_t>(static_cast<uint32_t>(numerator) + kFractionZero - coding.base);
   });
@@ -107,23 +116,46 @@ void fromOctahedron(std::span<const Plane> planes, const AttributeCoding& coding
   }
 }
 
-bool fromWords(std::span<const Plane> planes, const AttributeCoding& coding, Attribute& out) {
-  const uint32_t size = sizeOf(out.type);
-  for (size_t i = 0; i < planes[0].values.size(); ++i) {
-    const auto number = static_cast<uint32_t>(planes[0].values[i]);
-    const uint64_t word = coding.kind == CodingKind::kWords ? uint64_t{coding.base} + number
-                                                            : number << 16 | static_cast<uint32_t>(planes[1].values[i]);
-    if (word > largestWord(out.type)) return false;
-    storeWord(&out.data[i * size], out.type, static_cast<uint32_t>(word));
+/// Calls store(component, word) for all components of all wedges until it returns false. The first component's word is
+/// what the others' distances from `zero` leave of the sum, if a sum is fixed.
+template <class Store>
+bool forEachWord(const Plane& in, const AttributeCoding& coding, uint32_t zero, Store store) {
+  const size_t components = in.components + coding.summed;
+  size_t component = 0;
+  for (const int32_t* value = in.values.data(); value != in.values.data() + in.values.size(); component += components) {
+    uint32_t rest = coding.total;
+    for (size_t c = coding.summed; c < components; ++c) {
+      const uint64_t word = uint64_t{coding.base} + static_cast<uint32_t>(*value++);
+      rest -= static_cast<uint32_t>(word) - zero;
+      if (!store(component + c, word)) return false;
+    }
+    if (coding.summed && !store(component, uint64_t{rest + zero})) return false;
   }
   return true;
 }
 
-void fromFractions(const Plane& in, const AttributeCoding& coding, Attribute& out) {
-  for (size_t i = 0; i < in.values.size(); ++i) {
-    const double numerator = static_cast<double>(int64_t{in.values[i]} + coding.base - kFractionZero);
-    storeFloat(&out.data[4 * i], static_cast<float>(numerator / coding.denominator));
+bool fromWords(const Plane& in, const AttributeCoding& coding, Attribute& out) {
+  const uint32_t size = sizeOf(out.type);
+  return forEachWord(in, coding, 0, [&](size_t i, uint64_t word) {
+    if (word > largestWord(out.type)) return false;
+    storeWord(&out.data[i * size], out.type, static_cast<uint32_t>(word));
+    return true;
+  });
+}
+
+void fromSplitWords(std::span<const Plane> planes, Attribute& out) {
+  for (size_t i = 0; i < planes[0].values.size(); ++i) {
+    const auto upper = static_cast<uint32_t>(planes[0].values[i]), lower = static_cast<uint32_t>(planes[1].values[i]);
+    storeWord(&out.data[4 * i], out.type, upper << 16 | lower);
   }
+}
+
+bool fromFractions(const Plane& in, const AttributeCoding& coding, Attribute& out) {
+  return forEachWord(in, coding, kFractionZero, [&](size_t i, uint64_t word) {
+    const double numerator = static_cast<double>(static_cast<int64_t>(word) - int64_t{kFractionZero});
+    storeFloat(&out.data[4 * i], static_cast<float>(numerator / coding.denominator));
+    return true;
+  });
 }
 
 void toPalette(const Attribute& attribute, const AttributeCoding& coding, Plane& out) {
@@ -180,7 +212,7 @@ std::vector<Plane> planesOf(const Attribute& attribute, const AttributeCoding& c
     }
     case CodingKind::kSplitWords:
       return {plane(PlaneKind::kLabel, index, components, 0xFFFF), plane(PlaneKind::kLabel, index, components, 0xFFFF)};
-    default: return {plane(kindOf(attribute, coding, index), index, components, largest(coding.bits))};
+    default: return {plane(kindOf(attribute, coding, index), index, components - coding.summed, largest(coding.bits))};
   }
 }
 
@@ -216,9 +248,9 @@ bool joinValues(std::span<const Plane> planes, const AttributeCoding& coding, In
     case CodingKind::kGrid: return fromGrid(planes[0], coding, attribute), true;
     case CodingKind::kOctahedral:
     case CodingKind::kOctahedralSigned: return fromOctahedron(planes, coding, attribute), true;
-    case CodingKind::kWords:
-    case CodingKind::kSplitWords: return fromWords(planes, coding, attribute);
-    case CodingKind::kFractions: return fromFractions(planes[0], coding, attribute), true;
+    case CodingKind::kWords: return fromWords(planes[0], coding, attribute);
+    case CodingKind::kSplitWords: return fromSplitWords(planes, attribute), true;
+    case CodingKind::kFractions: return fromFractions(planes[0], coding, attribute);
     case CodingKind::kNumerals: break;
   }
   return false;

@@ -84,7 +84,7 @@ Outcome<Json> attributesOf(const PayloadView& payload) {
                     {"components", attribute.components},
                     {"type", typeName(attribute.type)},
                     {"normalized", attribute.normalized},
-                    {"coding", nameOf((*codings)[i].kind)},
+                    {"coding", nameOf((*codings)[i])},
                     {"bits", (*codings)[i].bits},
                     {"errorBound", errorBound((*codings)[i])},
                     {"bytes", (*sizes)[i].bytes()},
