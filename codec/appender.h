@@ -53,15 +53,18 @@ class CornerAppender {
     mesh.twins.reserve(expected + kLeastBlock);
   }
 
-  /// `corners` elements, those that were not written included. New twins are kNone. May move the arrays.
-  void makeRoom(size_t corners) {
-    if (corners > room_) grow(corners);
+  bool hasRoom(size_t corners) const { return corners <= room_; }
+
+  /// `corners` elements, those that were not written included. New twins are kNone. May move the arrays. There is room
+  /// for no more than `most`.
+  void makeRoom(size_t corners, uint64_t most = kNone) {
+    if (corners > room_) grow(corners, most);
   }
   Index* umbrellas() { return umbrellas_; }
   Index* twins() { return twins_; }
 
-  Index size() const { return static_cast<Index>(size_); }
-  void setSize(Index size) { size_ = size; }
+  size_t size() const { return size_; }
+  void setSize(size_t size) { size_ = size; }
 
   void finish() {
     mesh_.umbrellas.resize(size_);
@@ -69,11 +72,11 @@ class CornerAppender {
   }
 
  private:
-  [[gnu::noinline]] void grow(size_t corners) {
+  [[gnu::noinline]] void grow(size_t corners, uint64_t most) {
     while (corners > room_) {
       growByBlock(mesh_.umbrellas, 0);
       growByBlock(mesh_.twins, kNone);
-      room_ = std::min(mesh_.umbrellas.size(), mesh_.twins.size());
+      room_ = std::min<uint64_t>(std::min(mesh_.umbrellas.size(), mesh_.twins.size()), most);
     }
     umbrellas_ = mesh_.umbrellas.data();
     twins_ = mesh_.twins.data();

@@ -127,7 +127,7 @@ void orderVertices(const Topology& topology, const std::vector<Index>& umbrellas
 
 Result<WalkedCandidate> walkCandidate(TopologyPair& topologies, const Candidate& candidate) {
   const Topology& topology = topologies.walked(candidate.header.dual);
-  return withStatistics(candidate.header, [&]<class Statistics>(std::type_identity<Statistics>) {
+  return withQuickStatistics(candidate.header, [&]<class Statistics>(std::type_identity<Statistics>) {
     return walkWith<Statistics>(topology, candidate);
   });
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -45,7 +46,8 @@ Result<Connectivity> decodeSymbols(const SectionHeader& header, std::span<const 
   const size_t expected = expectedCorners(symbols, walk_limits);
   Walk walk(script, header.tie, header.leastDegree(), walk_limits, expected);
   if (const Error error = walk.run(); error != Error::kNone) return error;
-  PrimalMesh primal{std::move(walk.connectivity()), {}, std::move(walk).onBoundary()};
+  PrimalMesh primal{std::move(walk.connectivity()), {}, {}};
+  if (header.repairs && !header.dual) primal.on_boundary = std::move(walk).onBoundary();
   if (header.dual) {
     Result<PrimalMesh> turned = primalOf(primal.connectivity, std::move(walk).dummyUmbrellas(), limits);
     if (!turned) return turned.error();
@@ -69,9 +71,11 @@ Result<Connectivity> decodeSection(std::span<const uint8_t> bytes, const Limits&
   SectionHeader header;
   const Result<std::span<const uint8_t>> symbols = readSection(bytes, header);
   if (!symbols) return symbols.error();
-  return withStatistics(header, [&]<class Statistics>(std::type_identity<Statistics>) {
+  const auto decode = [&]<class Statistics>(std::type_identity<Statistics>) {
     return decodeSymbols<Port, Statistics>(header, *symbols, limits, observer);
-  });
+  };
+  if constexpr (std::is_same_v<Observer, Unwatched>) return withQuickStatistics(header, decode);
+  return withStatistics(header, decode);
 }
 
 }  // namespace tutte

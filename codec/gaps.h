@@ -19,6 +19,9 @@ namespace tutte {
 /// Where a new gap is queued among those with as many free slots. Part of the bit stream.
 enum class TieRule : uint8_t { kOldestFirst = 0, kNewestFirst = 1 };
 
+/// 64 bits, and by its type nothing that counters are made of: so compilers know that gaps written leave those alone.
+using Met = unsigned long long;
+
 /// All that the walk and its contexts read about a gap stands in one cache line.
 struct alignas(64) Gap {
   Gap* next = nullptr;  ///< the gap at the far end of the leaving edge; in a free record, the next free one
@@ -34,27 +37,15 @@ struct alignas(64) Gap {
 
   // What contexts want to know of the surroundings, gathered while the region grows, if the statistics ask for it.
   uint32_t angle = 0;  ///< sum over the real faces around it of 1 - 2 / degree, in 1/65536
-  uint64_t met = 0;    ///< of the edges of the umbrella seen by this gap: 2^32 plus the valence at the far end
+  Met met = 0;         ///< of the edges of the umbrella seen by this gap: 2^32 plus the valence at the far end
 
-  // Valences, up to 14.
-  uint8_t capped = 0;         ///< the umbrella's
-  uint8_t opposite_next = 0;  ///< in the face behind: that of the vertex beyond the next gap's
-  uint8_t opposite_own = 0;   ///< in the face behind: that of the vertex beyond this gap's own
+  // Valences, up to 14. Not bytes: compilers let those be anything's.
+  uint16_t capped = 0;         ///< the umbrella's
+  uint16_t opposite_next = 0;  ///< in the face behind: that of the vertex beyond the next gap's
+  uint16_t opposite_own = 0;   ///< in the face behind: that of the vertex beyond this gap's own
 
   bool queued = false;  ///< in the boundary and not part of the current face
   bool dummy = false;   ///< a dummy face touches the umbrella
-
-  /// As new, but for the number. Field by field: compilers make slow code of an assignment as a whole.
-  [[gnu::always_inline]] void reset() {
-    next = prev = nullptr;
-    umbrella = free_slots = degree_behind = valence = 0;
-    behind = kNone;
-    flat = 0;
-    angle = 0;
-    met = 0;
-    capped = opposite_next = opposite_own = 0;
-    queued = dummy = false;
-  }
 };
 
 /// Gap records, with numbers and a queue by free slots: every operation is O(1), and records never move. Numbers of
@@ -63,13 +54,14 @@ class Gaps {
  public:
   static constexpr Index kLists = 64;
 
-  explicit Gaps(TieRule tie) : oldest_first_(tie == TieRule::kOldestFirst), links_(kLists) {
-    for (Index list = 0; list < kLists; ++list) links_[list] = {list, list};
+  explicit Gaps(TieRule tie) : oldest_first_(tie == TieRule::kOldestFirst) {
+    makeLinks(0);
+    for (Index list = 0; list < kLists; ++list) first_[endOf(list)] = {endOf(list), endOf(list)};
   }
 
   /// The gap of a number below highWater().
-  const Gap& operator[](Index number) const { return *record(number); }
-  Gap& operator[](Index number) { return *record(number); }
+  const Gap& operator[](Index number) const { return *records_[number]; }
+  Gap& operator[](Index number) { return *records_[number]; }
 
   /// Forgets all gaps, so that numbers begin at 0 again. The boundary must be empty.
   void clear() {
@@ -81,17 +73,16 @@ class Gaps {
   /// One more than the largest number given since clear().
   Index highWater() const { return static_cast<Index>(high_water_); }
 
-  /// A record that is in no list and no queue.
+  /// A record that is in no list and no queue. Only its number is set.
   [[gnu::always_inline]] Gap& create() {
     if (free_ == nullptr) return extend();
     Gap& gap = *free_;
     free_ = gap.next;
-    gap.reset();
     return gap;
   }
 
+  /// Of a gap that is not queued.
   void release(Gap& gap) {
-    gap.free_slots = 0;
     gap.next = free_;
     free_ = &gap;
   }
@@ -100,72 +91,79 @@ class Gaps {
   static Index listOf(Index free_slots) { return std::min(free_slots, kLists - 1); }
 
   /// The lowest list that is not empty; kLists when the queue is empty.
-  Index lowestList() {
-    for (; used_ != 0; used_ &= used_ - 1) {
-      const Index list = static_cast<Index>(std::countr_zero(used_));
-      if (links_[list].after != list) return list;
-    }
-    return kLists;
+  Index lowestList() const { return static_cast<Index>(std::countr_zero(used_)); }
+
+  /// Would a gap of one list that joins the queue now come before all that are queued and before one of `other`?
+  bool comesFirst(Index list, Index other) const {
+    const uint64_t before = ((uint64_t{1} << oldest_first_) << list) - 1;  // lists that it does not come before
+    return (used_ & before) == 0 && list + oldest_first_ <= other;
   }
 
-  /// Would a gap of one list that joins the queue now come before all of another?
-  bool comesFirst(Index list, Index other) const { return oldest_first_ ? list < other : list <= other; }
-
   /// Takes the first gap of a list that is not empty out of the queue.
-  Gap& pop(Index list) {
-    Gap& gap = *record((oldest_first_ ? links_[list].before : links_[list].after) - kLists);
+  [[gnu::always_inline]] Gap& pop(Index list) {
+    const Link& end = first_[endOf(list)];
+    Gap& gap = *records_[static_cast<size_t>(oldest_first_ ? end.before : end.after)];
     dequeue(gap);
     return gap;
   }
 
   [[gnu::always_inline]] void enqueue(Gap& gap) {
-    const Index list = listOf(gap.free_slots), link = gap.number + kLists;
-    Link* const links = links_.data();
-    const Index after = links[list].after;
-    links[link].after = after;
-    links[link].before = list;
-    links[list].after = link;
-    links[after].before = link;
+    const Index list = listOf(gap.free_slots);
+    const Place end = endOf(list), place = static_cast<Place>(gap.number);
+    Link* const links = first_;
+    const Place after = links[end].after;
+    links[place].after = after;
+    links[place].before = end;
+    links[end].after = place;
+    links[after].before = place;
     used_ |= uint64_t{1} << list;
     gap.queued = true;
   }
 
   [[gnu::always_inline]] void dequeue(Gap& gap) {
-    Link* const links = links_.data();
-    const Index after = links[gap.number + kLists].after, before = links[gap.number + kLists].before;
+    Link* const links = first_;
+    const Link& link = links[static_cast<Place>(gap.number)];
+    const Place after = link.after, before = link.before;
     links[before].after = after;
     links[after].before = before;
+    if (after == before) used_ &= ~(uint64_t{1} << (-1 - after));  // the list's end alone is left
     gap.queued = false;
   }
 
  private:
   static constexpr Index kFirstBlock = 64;
 
-  /// Of the queue, newest first: each list is a ring through its end. First come the ends, then the gaps.
+  /// Of a link: a gap's number, or below 0 the end of a list.
+  using Place = int32_t;
+
+  /// Of the queue, newest first: each list is a ring through its end.
   struct Link {
-    Index after, before;
+    Place after, before;
   };
 
-  // Blocks double all records: block 0 holds the first 64, block 1 the next 64, block 2 the next 128.
-  Gap* record(Index number) const {
-    const int block = std::bit_width(number / kFirstBlock);
-    return &blocks_[block][block == 0 ? number : number - (kFirstBlock << (block - 1))];
+  static Place endOf(Index list) { return -1 - static_cast<Place>(list); }
+
+  void makeLinks(size_t gaps) {
+    links_.resize(kLists + gaps);
+    first_ = links_.data() + kLists;
   }
 
   [[gnu::noinline]] Gap& extend() {
     if (fresh_ == fresh_end_) openBlock();
     Gap& gap = *fresh_++;
-    gap.reset();
     gap.number = static_cast<Index>(high_water_++);
+    gap.queued = false;
     return gap;
   }
 
+  // Blocks double all records: block 0 holds the first 64, block 1 the next 64, block 2 the next 128.
   void openBlock() {
     const Index block = static_cast<Index>(std::bit_width(high_water_ / kFirstBlock));
     const size_t size = block == 0 ? kFirstBlock : kFirstBlock << (block - 1);
     if (block == blocks_.size()) {
       blocks_.push_back(std::make_unique_for_overwrite<Gap[]>(size));
-      links_.resize(kLists + high_water_ + size);
+      makeLinks(high_water_ + size);
+      for (size_t i = 0; i < size; ++i) records_.push_back(&blocks_[block][i]);
     }
     fresh_ = blocks_[block].get();
     fresh_end_ = fresh_ + size;
@@ -173,12 +171,14 @@ class Gaps {
 
   // None of these is an Index: so compilers know that what is written to records leaves them as they are.
   bool oldest_first_;
-  uint64_t used_ = 0;  // lists that may hold gaps
+  uint64_t used_ = 0;  // lists that hold gaps
   size_t high_water_ = 0;
   Gap* free_ = nullptr;
   Gap *fresh_ = nullptr, *fresh_end_ = nullptr;  // of the last block that is in use
   std::vector<std::unique_ptr<Gap[]>> blocks_;
+  std::vector<Gap*> records_;  // by number
   std::vector<Link> links_;
+  Link* first_ = nullptr;  // of the gaps; the lists' ends are before it
 };
 
 }  // namespace tutte

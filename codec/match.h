@@ -30,7 +30,11 @@ class MatchModel {
   Slot& opinion(bool expected_bit) { return slots_[lengthClass() * 2 + expected_bit]; }
 
   void add(Index symbol) {
-    if (!used_) return;
+    if (used_) note(symbol);
+  }
+
+ private:
+  [[gnu::noinline]] void note(Index symbol) {
     if (length_ > 0 && history_[position_] == symbol) {
       ++position_;
       if (length_ < 65535) ++length_;
@@ -46,7 +50,6 @@ class MatchModel {
     latest = static_cast<Index>(size_);
   }
 
- private:
   static constexpr int kTableBits = 13;
   static constexpr int kLeast = 6, kMost = 32;
 
@@ -80,6 +83,14 @@ class MatchModel {
   size_t size_ = 0;
   std::vector<Index> positions_;
   std::array<Slot, 16> slots_;
+};
+
+/// Predicts nothing.
+class NoMatch {
+ public:
+  explicit NoMatch(bool) {}
+  static constexpr Index expected() { return MatchModel::kNoSymbol; }
+  static void add(Index) {}
 };
 
 }  // namespace tutte

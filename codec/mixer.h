@@ -15,7 +15,8 @@
 namespace tutte {
 
 /// An adaptive probability (high 16 bits) and the rate at which it learns (low 16 bits), in one word. The rate falls
-/// with every decision, much as if all decisions had the same weight, down to about 1/255.
+/// with every decision, much as if all decisions had the same weight, down to about 1/255. No probability comes closer
+/// than 50 / 65536 to 0 or 1.
 class Slot {
  public:
   static constexpr int kLeastRate = 257;

@@ -85,12 +85,12 @@ class Predictor {
 
   /// Codes one decision.
   template <class Port>
-  bool code(Port& port, Selectors selectors, bool value) {
+  [[gnu::always_inline]] bool code(Port& port, Selectors selectors, bool value) {
     if constexpr (kMixes) {
       return mixed<false>(port, selectors, nullptr, 0, value);
     } else {
       Slot& slot = line_[0]->slot[selectors.node];
-      const bool bit = port.code(std::clamp(slot.probability(), 16u, 65520u), value);
+      const bool bit = port.code(slot.probability(), value);
       slot.update(bit);
       return bit;
     }

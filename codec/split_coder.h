@@ -27,7 +27,7 @@ class SplitCoder {
     } else {
       answer.gap = port.uniform(gaps.highWater(), truth.gap);
     }
-    if (answer.gap == kNone || gaps[answer.gap].free_slots < least_slots) return {};
+    if (answer.gap == kNone || !gaps[answer.gap].queued || gaps[answer.gap].free_slots < least_slots) return {};
     // At least one slot remains before the face, and one after its last vertex.
     const Index choices = gaps[answer.gap].free_slots - least_slots + 1, shift = last ? 1 : 0;
     const Index class_of_choices = choices < 4 ? choices : 4;

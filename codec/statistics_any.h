@@ -13,6 +13,7 @@ namespace tutte {
 class AnyStatistics {
  public:
   static constexpr bool kGathers = true, kSums = true;
+  static constexpr Index kDegree = 0;
 
   explicit AnyStatistics(const SectionHeader& header) : profile_(header.profile) {
     switch (profile_) {
@@ -51,9 +52,9 @@ class AnyStatistics {
 
   Profile profile_;
   std::optional<PaperStatistics> paper_;
-  std::optional<MixedStatistics<FastProfile>> fast_;
-  std::optional<MixedStatistics<DefaultProfile>> default_;
-  std::optional<MixedStatistics<SmallProfile>> small_;
+  std::optional<MixedStatistics<FastProfile, 0>> fast_;
+  std::optional<MixedStatistics<DefaultProfile, 0>> default_;
+  std::optional<MixedStatistics<SmallProfile, 0>> small_;
 };
 
 /// What stands for a profile's own class.

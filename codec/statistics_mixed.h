@@ -23,14 +23,14 @@ struct ContextList {
   }
 };
 
-/// A profile has lists of contexts, and says whether it is rich (see Predictor), and whether the most frequent degree
-/// is asked for first: that takes fewer decisions, and a few bytes more.
+/// A profile has lists of contexts, and says whether it is rich (see Predictor), whether the most frequent degree is
+/// asked for first (that takes fewer decisions, and a few bytes more), and whether any context looks at the history.
 
 /// One context each, nothing to mix.
 struct FastProfile {
   using Vertex = ContextList<VertexContext::kPredicted>;
   using Face = ContextList<FaceContext::kEnds>;
-  static constexpr bool kRich = false, kUsualDegree = true;
+  static constexpr bool kRich = false, kUsualDegree = true, kHistory = false;
 };
 
 struct DefaultProfile {
@@ -39,7 +39,7 @@ struct DefaultProfile {
                   VertexContext::kSlots, VertexContext::kHistory, VertexContext::kSums>;
   using Face = ContextList<FaceContext::kEnds, FaceContext::kNearAngle, FaceContext::kHistory, FaceContext::kAround,
                            FaceContext::kNothing>;
-  static constexpr bool kRich = false, kUsualDegree = true;
+  static constexpr bool kRich = false, kUsualDegree = true, kHistory = true;
 };
 
 struct SmallProfile {
@@ -52,7 +52,7 @@ struct SmallProfile {
                            FaceContext::kEdge, FaceContext::kLeast, FaceContext::kAngles, FaceContext::kDegrees,
                            FaceContext::kBehind, FaceContext::kSums, FaceContext::kSlots, FaceContext::kBoth,
                            FaceContext::kEdgeAndDegrees, FaceContext::kDummies, FaceContext::kNothing>;
-  static constexpr bool kRich = true, kUsualDegree = false;
+  static constexpr bool kRich = true, kUsualDegree = false, kHistory = true;
 };
 
 /// The usual valence of a face degree's vertices, or the usual degree: the most frequent so far, at least 3.
@@ -64,6 +64,10 @@ class UsualSymbol {
 
   Index of(Index symbol_class) const { return usual_[symbol_class]; }
 
+  /// It was the usual one.
+  void addUsual(Index symbol_class) { ++counts_[symbol_class][usual_[symbol_class]]; }
+
+  /// It was another one.
   void add(Index symbol_class, Index symbol) {
     if (symbol < 3 || symbol > 15) return;
     auto& counts = counts_[symbol_class];
@@ -75,10 +79,12 @@ class UsualSymbol {
   std::array<Index, 16> usual_;
 };
 
-template <class Profile>
+/// `degree`: of all faces, when none is a dummy and nothing is matched; 0: any mesh.
+template <class Profile, Index degree>
 class MixedStatistics {
  public:
   static constexpr bool kGathers = Profile::Vertex::kCount > 1, kSums = false;
+  static constexpr Index kDegree = degree;
 
   explicit MixedStatistics(const SectionHeader& header)
       : header_(header),
@@ -89,7 +95,7 @@ class MixedStatistics {
   template <class Port>
   FaceAnswer face(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {
     const FaceAnswer answer = codeFace(port, question, truth);
-    history_.addDegree(answer.dummy ? 1 : answer.degree);
+    if (Profile::kHistory) history_.addDegree(answer.dummy ? 1 : answer.degree);
     match_.add(128 + (answer.dummy ? 1 : std::min(answer.degree, Index{100})));
     return answer;
   }
@@ -116,9 +122,6 @@ class MixedStatistics {
     const Index expected = match_.expected();
     expected_ = expected < 128 ? expected : MatchModel::kNoSymbol;
     const int situation = static_cast<int>(face * 4 + (question.missing > 1) * 2 + (question.index > 0));
-    const auto decide = [&](int node, int step, bool matched, bool value) {
-      return this->decide(port, vertices_, {node, situation + 64 * step}, matched, value);
-    };
     bool is_usual;
     if (vertices_.isSure(keyOf<VertexContext::kSums>(features) | shared << 44)) {
       is_usual = vertices_.codeSure(port, truth == usual);
@@ -126,12 +129,17 @@ class MixedStatistics {
       if (!is_usual && expected == usual) expected_ = MatchModel::kNoSymbol;
     } else {
       vertices_.enter(Profile::Vertex::keys(features, shared));
-      is_usual = decide(0, 0, expected == usual, truth == usual);
+      is_usual = decide(port, vertices_, {0, situation}, expected == usual, truth == usual);
       vertices_.noteFirst(is_usual);
     }
-    const Index valence = is_usual ? usual : codeUnusual(port, usual, Seed::value, truth, expected, decide);
-    usual_.add(face, valence);
-    history_.addValence(valence);
+    Index valence = usual;
+    if (is_usual) {
+      usual_.addUsual(face);
+    } else {
+      valence = codeUnusual(port, usual, Seed::value, truth, expected, situation);
+      usual_.add(face, valence);
+    }
+    if (Profile::kHistory) history_.addValence(valence);
     match_.add(std::min(valence, Index{100}));
     return valence;
   }
@@ -160,7 +168,7 @@ class MixedStatistics {
     };
     port.about(Topic::kDegrees);
     if (known == 0 && usual >= least && decide(0, 0, expected == usual, !truth.dummy && truth.degree == usual)) {
-      usual_degree_.add(0, usual);
+      usual_degree_.addUsual(0);
       return {usual, false};
     }
     port.about(Topic::kHoles);
@@ -169,33 +177,33 @@ class MixedStatistics {
     }
     if (known != 0) return {known, false};
     port.about(Topic::kDegrees);
-    const Index degree = codeUnusualDegree(port, usual, least, truth.degree, expected, decide);
-    usual_degree_.add(0, degree);
-    return {degree, false};
+    const Index coded = codeUnusualDegree(port, usual, least, truth.degree, expected, decide);
+    usual_degree_.add(0, coded);
+    return {coded, false};
   }
 
   template <class Port, class Decide>
   Index codeUnusualDegree(Port& port, Index usual, Index least, Index truth, Index expected, Decide&& decide) {
     if (usual > least && decide(2, 2, expected < usual, truth < usual)) {
-      for (Index degree = usual - 1; degree > least; --degree) {
-        if (decide(static_cast<int>(std::min(2 + usual - degree, Index{6})), 3, expected == degree, truth == degree)) {
-          return degree;
-        }
+      for (Index d = usual - 1; d > least; --d) {
+        if (decide(static_cast<int>(std::min(2 + usual - d, Index{6})), 3, expected == d, truth == d)) return d;
       }
       return least;
     }
-    Index degree = std::max(usual + 1, least);
-    const Index most = degree + kLongest - 5;
-    for (; degree <= most; ++degree) {
-      const int node = static_cast<int>(std::min(6 + degree - usual, Index{kNodes - 1}));
-      if (decide(node, 4, expected == degree, truth == degree)) return degree;
+    Index d = std::max(usual + 1, least);
+    const Index most = d + kLongest - 5;
+    for (; d <= most; ++d) {
+      const int node = static_cast<int>(std::min(6 + d - usual, Index{kNodes - 1}));
+      if (decide(node, 4, expected == d, truth == d)) return d;
     }
-    return degree + large_degree_.code(port, truth - degree);
+    return d + large_degree_.code(port, truth - d);
   }
 
-  template <class Port, class Decide>
-  [[gnu::noinline]] Index codeUnusual(Port& port, Index usual, bool seed, Index truth, Index expected,
-                                      Decide&& decide) {
+  template <class Port>
+  [[gnu::noinline]] Index codeUnusual(Port& port, Index usual, bool seed, Index truth, Index expected, int situation) {
+    const auto decide = [&](int node, int step, bool matched, bool value) {
+      return this->decide(port, vertices_, {node, situation + 64 * step}, matched, value);
+    };
     if (decide(1, 1, expected < usual, truth < usual)) {
       for (Index v = usual - 1; v >= 3; --v) {
         if (decide(static_cast<int>(std::min(1 + usual - v, Index{6})), 2, expected == v, truth == v)) return v;
@@ -213,13 +221,14 @@ class MixedStatistics {
   // `matched`: what the expected symbol, if there is one, says to the decision.
   template <class Port, class Stream>
   [[gnu::always_inline]] bool decide(Port& port, Stream& stream, Selectors selectors, bool matched, bool value) {
-    if constexpr (!Stream::kMixes) return stream.code(port, selectors, value);
-    if (expected_ == MatchModel::kNoSymbol) return stream.code(port, selectors, value);
-    return decideMatched(port, stream, selectors, matched, value);
+    if constexpr (Stream::kMixes && degree == 0) {
+      if (expected_ != MatchModel::kNoSymbol) return decideMatched(port, stream, selectors, matched, value);
+    }
+    return stream.code(port, selectors, value);
   }
 
   template <class Port, class Stream>
-  bool decideMatched(Port& port, Stream& stream, Selectors selectors, bool matched, bool value) {
+  [[gnu::noinline]] bool decideMatched(Port& port, Stream& stream, Selectors selectors, bool matched, bool value) {
     const bool bit = stream.code(port, selectors, match_.opinion(matched), match_.lengthClass(), value);
     if (bit != matched) expected_ = MatchModel::kNoSymbol;
     return bit;
@@ -232,7 +241,7 @@ class MixedStatistics {
   const SectionHeader& header_;
   Predictor<Profile::Vertex::kCount, Profile::kRich> vertices_;
   Predictor<Profile::Face::kCount, Profile::kRich> faces_;
-  MatchModel match_;
+  std::conditional_t<degree == 0, MatchModel, NoMatch> match_;
   History history_;
   UsualSymbol usual_;         // valences, by the face's degree
   UsualSymbol usual_degree_;  // all degrees in one class

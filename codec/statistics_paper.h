@@ -39,6 +39,7 @@ inline Index paperVertexContext(const VertexQuestion& question) {
 class PaperStatistics {
  public:
   static constexpr bool kGathers = false, kSums = true;
+  static constexpr Index kDegree = 0;
 
   explicit PaperStatistics(const SectionHeader& header) : header_(header) {}
 

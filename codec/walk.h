@@ -25,6 +25,7 @@
 namespace tutte {
 
 /// Runs a script to a mesh. A Script offers
+///   static constexpr Index kDegree         all faces' degree, when none is a dummy; 0: faces are asked for theirs
 ///   bool component()                       is there another component?
 ///   Index original() const               the number of the one that it repeats, or kNone
 ///   FaceAnswer face(const FaceQuestion&)
@@ -32,7 +33,7 @@ namespace tutte {
 ///   SplitAnswer split(const VertexQuestion&, const Gaps&)
 ///   static constexpr bool kGathers         do its answers depend on what Gap gathers of the surroundings?
 ///   static constexpr bool kSums            ... on sums of valences?
-///   bool faulty()                          must the walk stop? To be asked after each answer
+///   bool faulty()                          must the walk stop? To be asked now and then
 ///   Error fault()                          why
 /// and follows, where it stands on an input mesh, the position of the walk:
 ///   void seed()                  before the first face of a component
@@ -54,18 +55,14 @@ class Walk : public Boundary<Script> {
 
   /// Builds all components. O(corners). Fails only on damaged input or exceeded limits.
   Error run() {
-    Error error = Error::kNone;
-    while (error == Error::kNone && script_.component()) {
-      starts_.push_back(corners_.size());
-      error = seed();
-      for (bool more = true; more && error == Error::kNone;) more = attach(error);
+    while (error_ == Error::kNone && script_.component()) {
+      starts_.push_back(static_cast<Index>(corners_.size()));
+      grow();
       noteCopy();
     }
-    degrees_.finish();
-    corners_.finish();
-    Base::on_boundary_.resize(umbrellas_);
-    mesh_.vertex_count = mesh_.umbrella_count = static_cast<Index>(umbrellas_);
-    return error;
+    if (error_ != Error::kNone && script_.faulty()) error_ = script_.fault();
+    finish();
+    return error_;
   }
 
   Connectivity& connectivity() { return mesh_; }
@@ -77,101 +74,156 @@ class Walk : public Boundary<Script> {
  private:
   using Base = Boundary<Script>;
   using Face = typename Base::Face;
-  using Base::become, Base::closeBoundary, Base::corners_, Base::emit, Base::emitKnown, Base::gaps_, Base::gather,
-      Base::know, Base::leave, Base::mesh_, Base::pairLast, Base::pinched_, Base::requeue, Base::script_, Base::take,
-      Base::umbrellas_, Base::use;
+  using Base::become, Base::closeBoundary, Base::corners_, Base::emit, Base::emitKnown, Base::error_, Base::fail,
+      Base::gaps_, Base::kAnyReach, Base::kDegree, Base::kGathers, Base::know, Base::leave, Base::mesh_, Base::pairLast,
+      Base::pinched_, Base::requeue, Base::script_, Base::take, Base::umbrellas_, Base::use;
+
+  void finish() {
+    corners_.finish();
+    degrees_.finish();
+    if (kDegree != 0) mesh_.face_degrees.assign(corners_.size() / std::max(kDegree, Index{1}), kDegree);
+    mesh_.vertex_count = mesh_.umbrella_count = static_cast<Index>(umbrellas_);
+  }
 
   void noteCopy() {
-    const Index original = script_.original(), start = starts_.back();
-    if (original != kNone) mesh_.copies.push_back({start, starts_[original], corners_.size() - start});
+    const Index original = script_.original(), start = starts_.back(), end = static_cast<Index>(corners_.size());
+    if (original != kNone) mesh_.copies.push_back({start, starts_[original], end - start});
+  }
+
+  // A face was attached. `start`: where the next one is; null: the queue knows.
+  struct Attached {
+    bool ok = false;
+    Gap* start = nullptr;
+  };
+
+  // One component, face by face.
+  void grow() {
+    gaps_.clear();
+    Attached last = seed();
+    while (last.ok) {
+      Face face;
+      if (!Base::choose(last.start, face)) return;
+      last = attach(face);
+    }
   }
 
   // The first face of a component. All its vertices are new.
-  Error seed() {
-    gaps_.clear();
-    script_.seed();
+  [[gnu::noinline]] Attached seed() {
     Face face = Face::seed();
-    face.answer = script_.face({});
-    if (face.answer.dummy) return Error::kMalformed;
-    if (!open(face)) return face.error;
-    face.missing = face.answer.degree;
+    script_.seed();
+    if (kDegree == 0) face.answer = script_.face({});
+    if (face.dummy()) return {fail(Error::kMalformed)};
+    if (!open(face)) return {};
+    face.missing = face.degree();
     while (face.missing > 0) {
       const VertexAnswer vertex = script_.seedVertex(face.question());
-      if (vertex.valence == 0) return Error::kMalformed;
-      if (!addVertex(vertex, face)) return face.error;
+      if (vertex.valence == 0) return {fail(Error::kMalformed)};
+      if (!addVertex(vertex, face)) return {};
       if (face.stretch == nullptr) face.stretch = face.current;
     }
     closeBoundary(*face.stretch, *face.current, face.corner - 1, face);
-    leave(face.stretch, face.current, face.answer);
     corners_.setSize(face.corner);
-    return Error::kNone;
+    return {true, Base::template leave<kAnyReach>(face.stretch, face.current, face)};
   }
 
-  // One more face. False: there is none, or an error.
-  [[gnu::always_inline]] bool attach(Error& error) {
-    Face face;
-    const bool attached = Base::choose(face) && grow(face);
-    error = attached ? Error::kNone : face.error;
-    return attached;
-  }
-
-  [[gnu::always_inline]] bool grow(Face& face) {
+  // One more face, of which choose() told where.
+  [[gnu::always_inline]] Attached attach(Face& face) {
     script_.start(*face.start);
-    face.error = Error::kMalformed;
-    face.edges = 1;
-    use(*face.start, face);
-    use(*face.second, face);
-    if (!Base::reachOut(face)) return false;
-    face.answer = script_.face({face.start, face.second, face.head, face.tail, face.edges, face.closed});
-    if (!open(face)) return false;
-    const Gap* const stop = face.closed ? face.start : face.tail;
-    emitKnown(*face.start, face);
-    for (const Gap* gap = face.second; gap != stop; gap = gap->next) emitKnown(*gap, face);
-    if (!face.closed && !fill(face)) return false;
-    Base::release(face, stop);
-    corners_.setSize(face.corner);
-    return true;
+    if (face.second->free_slots != 0) {
+      if (face.start->free_slots != 0) return attachWith<0>(face);
+      const Gap& prev = *face.start->prev;
+      if (prev.free_slots > 1 && &prev != face.second) {
+        return Base::reachBack(face) ? attachWith<1>(face) : Attached{fail(Error::kMalformed)};
+      }
+    }
+    return attachFar(face);
   }
 
-  // The rest of a face that is not closed: the missing vertices from its tail round to its head.
-  [[gnu::always_inline]] bool fill(Face& face) {
+  [[gnu::noinline]] Attached attachFar(Face face) {
+    return Base::reachOut(face) ? attachWith<kAnyReach>(face) : Attached{fail(Error::kMalformed)};
+  }
+
+  template <int kReach>
+  [[gnu::always_inline]] Attached attachWith(Face& face) {
+    if (kDegree == 0) {
+      face.answer = script_.face({face.start, face.second, face.head, face.tail, face.edges, face.closed});
+    }
+    if (!open(face)) return {};
+    emitKnown(*face.start, face);
+    if (kReach == kAnyReach) {
+      const Gap* const stop = face.closed ? face.start : face.tail;
+      for (const Gap* gap = face.second; gap != stop; gap = gap->next) emitKnown(*gap, face);
+      if (face.closed) return {finish<kReach>(face)};
+    }
     face.current = face.stretch = face.tail;
-    face.before_tail = face.tail->prev;
-    face.missing = face.answer.degree - face.edges - 1;
-    const Index splits = splits_;
-    const uint8_t after_head = Script::kGathers ? face.head->next->capped : uint8_t{0};
-    if (Script::kGathers) face.before_current = face.before_tail->capped;
+    face.before_tail = kReach == kAnyReach ? face.tail->prev : face.start;
+    face.missing = face.degree() - face.edges - 1;
+    if (kGathers) face.before_current = face.before_tail->capped;
     emit(*face.tail, face);
+    return fill<kReach>(face, false);
+  }
+
+  // The missing vertices of a face, from its tail round to its head.
+  template <int kReach>
+  [[gnu::always_inline]] Attached fill(Face& face, bool any_split) {
+    const uint16_t after_head = kGathers ? face.head->next->capped : uint16_t{0};
     while (face.missing > 0) {
       const VertexAnswer vertex = script_.vertex(face.question());
-      if (vertex.valence == 0) face = split(face);
-      if (vertex.valence == 0 ? face.error != Error::kNone : !addVertex(vertex, face)) return false;
+      if (vertex.valence != 0) {
+        if (!addVertex(vertex, face)) return {};
+        continue;
+      }
+      if (kReach != kAnyReach) return fillSplit(face);
+      face = split(face);
+      if (error_ != Error::kNone) return {};
+      any_split = true;
     }
-    const Index last_corner = face.corner - 1;
-    for (const Gap* gap = face.head; gap != face.start; gap = gap->next) emitKnown(*gap, face);
+    const size_t last_corner = face.corner - 1;
+    Base::template emitHead<kReach>(face);
     Gap &head = *face.head, &last = *face.current;
-    face.error = Error::kMalformed;
-    if (last.free_slots == 0 || pinched_) return false;
-    if (Script::kGathers && face.is_new) last.opposite_own = head.capped;
+    if (kReach == kAnyReach && (last.free_slots == 0 || &last == &head)) return {fail(Error::kMalformed)};
+    if (kDegree == 0 && pinched_) return {fail(Error::kMalformed)};
+    if (kGathers && face.is_new) last.opposite_own = head.capped;
     closeBoundary(head, last, last_corner, face);
-    if (Script::kGathers) head.opposite_own = after_head;
-    if (splits_ != splits && !finishSplits(face)) return false;
-    leave(face.stretch, face.head, face.answer);
+    if (kGathers) head.opposite_own = after_head;
+    if (any_split && !finishSplits(face)) return {};
+    Gap* const start = Base::template leave<kReach>(face.stretch, face.head, face);
+    return {finish<kReach>(face), start};
+  }
+
+  [[gnu::noinline]] Attached fillSplit(Face face) {
+    face = split(face);
+    return error_ == Error::kNone ? fill<kAnyReach>(face, true) : Attached{};
+  }
+
+  // Always true.
+  template <int kReach>
+  [[gnu::always_inline]] bool finish(const Face& face) {
+    Base::template release<kReach>(face, face.closed ? face.start : face.tail);
+    corners_.setSize(face.corner);
     return true;
   }
 
   // A vertex that nobody knew; becomes the current one.
   [[gnu::always_inline]] bool addVertex(const VertexAnswer& vertex, Face& face) {
-    if (script_.faulty()) return face.error = script_.fault(), false;
-    face.error = Error::kLimitExceeded;
-    if (umbrellas_ >= limits_.max_corners) return false;
+    if (kDegree == 0) {
+      if (script_.faulty()) return fail(script_.fault());
+      if (umbrellas_ >= limits_.max_corners) return fail(Error::kLimitExceeded);
+    }
     Gap& gap = gaps_.create();
     gap.umbrella = static_cast<Index>(umbrellas_++);
     gap.valence = vertex.valence;
     gap.free_slots = vertex.valence - 1;
     gap.flat = flatAngle(vertex.valence);
-    gap.capped = static_cast<uint8_t>(std::min(vertex.valence, Index{14}));
-    if (face.current != nullptr) Base::template closeBoundary<true>(gap, *face.current, face.corner - 1, face);
+    gap.capped = static_cast<uint16_t>(std::min(vertex.valence, Index{14}));
+    gap.opposite_own = 0;
+    gap.angle = 0;
+    gap.dummy = false;
+    if (face.current != nullptr) {
+      Base::template closeBoundary<true>(gap, *face.current, face.corner - 1, face);
+    } else {
+      beginBoundary(gap);
+    }
     if (vertex.dummy) dummy_umbrellas_.push_back(gap.umbrella);
     become(gap, face, true);
     --face.missing;
@@ -180,13 +232,21 @@ class Walk : public Boundary<Script> {
     return true;
   }
 
+  // Of a seed's first gap: there is no other to link it with.
+  static void beginBoundary(Gap& gap) {
+    gap.next = gap.prev = nullptr;
+    gap.behind = kNone;
+    gap.degree_behind = 0;
+    gap.met = 0;
+    gap.opposite_next = 0;
+  }
+
   // A vertex of the region; becomes the current one. Where it keeps no free slot on its far side, the face goes on
   // along the boundary.
   [[gnu::noinline]] Face split(Face face) {
     const SplitAnswer answer = script_.split(face.question(), gaps_);
-    face.error = script_.fault();
-    if (face.error != Error::kNone) return face;
-    face.error = Error::kMalformed;
+    if (script_.faulty()) return fail(script_.fault()), face;
+    error_ = Error::kMalformed;
     if (answer.gap >= gaps_.highWater() || !gaps_[answer.gap].queued) return face;
     Gap& gap = gaps_[answer.gap];
     if (gap.free_slots < 2 || answer.slots_after > gap.free_slots - 2) return face;
@@ -207,7 +267,7 @@ class Walk : public Boundary<Script> {
       --face.missing;
     }
     face.stretch = face.current;
-    face.error = Error::kNone;
+    error_ = Error::kNone;
     return face;
   }
 
@@ -225,34 +285,49 @@ class Walk : public Boundary<Script> {
   }
 
   // After a face with splits. False: it visits an umbrella twice, which no encoder writes.
-  [[gnu::noinline]] bool finishSplits(const Face face) {
+  [[gnu::noinline]] bool finishSplits(Face face) {
     for (const Segment& segment : segments_)
-      gather(segment.tail, segment.head, face.answer), requeue(segment.tail, segment.head);
+      Base::template gather<kAnyReach>(segment.tail, segment.head, face), requeue(segment.tail, segment.head);
     segments_.clear();
     last_face_.resize(umbrellas_, kNone);
-    for (Index corner = face.first_corner; corner < face.corner; ++corner) {
+    for (size_t corner = face.first_corner; corner < face.corner; ++corner) {
       Index& last = last_face_[corners_.umbrellas()[corner]];
-      if (last == degrees_.size()) return false;
-      last = degrees_.size();
+      if (last == face.first_corner) return fail(Error::kMalformed);
+      last = static_cast<Index>(face.first_corner);
     }
     return true;
   }
 
   // Checks the answer, and begins the face.
   [[gnu::always_inline]] bool open(Face& face) {
+    if (kDegree == 0) return openTold(face);
+    if (face.closed ? face.edges != kDegree : face.edges >= kDegree) return fail(Error::kMalformed);
+    face.first_corner = face.corner = corners_.size();
+    return corners_.hasRoom(face.corner + kDegree) || makeRoom(face.corner + kDegree);
+  }
+
+  [[gnu::always_inline]] bool openTold(Face& face) {
     const FaceAnswer& answer = face.answer;
-    if (script_.faulty()) return face.error = script_.fault(), false;
-    face.error = Error::kMalformed;
-    if (answer.degree < least_degree_ || answer.degree < face.edges) return false;
-    if (face.closed != (answer.degree == face.edges)) return false;
-    face.error = Error::kLimitExceeded;
+    if (script_.faulty()) return fail(script_.fault());
+    if (answer.degree < least_degree_ || answer.degree < face.edges) return fail(Error::kMalformed);
+    if (face.closed != (answer.degree == face.edges)) return fail(Error::kMalformed);
     face.first_corner = face.corner = corners_.size();
     // Every corner of a dummy face lies against a corner of the mesh.
-    if (answer.degree > limits_.max_corners - (answer.dummy ? 0 : face.corner)) return false;
+    const size_t before = answer.dummy ? 0 : face.corner;
+    if (answer.degree > limits_.max_corners - before) return fail(Error::kLimitExceeded);
     corners_.makeRoom(face.corner + std::max(face.edges + 2, Base::kRoom));
     if (answer.dummy) return true;
-    if (degrees_.size() >= limits_.max_faces) return false;
+    if (degrees_.size() >= limits_.max_faces) return fail(Error::kLimitExceeded);
     degrees_.add(answer.degree);
+    return true;
+  }
+
+  // For faces of known degree: all limits are limits of corners, and looked at when there is no room.
+  [[gnu::noinline]] bool makeRoom(size_t corners) {
+    const uint64_t most = std::min<uint64_t>(limits_.max_corners, uint64_t{limits_.max_faces} * kDegree);
+    if (script_.faulty()) return fail(script_.fault());
+    if (corners > most) return fail(Error::kLimitExceeded);
+    corners_.makeRoom(corners, most);
     return true;
   }
 
@@ -265,7 +340,7 @@ class Walk : public Boundary<Script> {
   Limits limits_;
   Appender degrees_;  // of the mesh's faces
   std::vector<Index> dummy_umbrellas_;
-  std::vector<Index> last_face_;   // per umbrella, as far as there were splits: the last face with splits, plus 1
+  std::vector<Index> last_face_;   // per umbrella, as far as there were splits: first corner of the last face with any
   std::vector<Segment> segments_;  // of the current face
   std::vector<Index> starts_;      // of components: their first corners
   Index splits_ = 0;
