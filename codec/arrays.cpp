@@ -59,23 +59,20 @@ class TriangleWriter {
   explicit TriangleWriter(const ArraySource& mesh)
       : mesh_(mesh),
         polygons_(mesh.polygons.face_degrees, mesh.ring_owners),
+        wedges_(mesh.wedges.empty() ? mesh.polygons.corners.data() : mesh.wedges.data()),
         starts_(triangleStarts(mesh.triangulation)) {}
 
-  /// Appends the triangles of `faces`, and tells whether FB_ngon_encoding holds.
-  bool write(std::span<const Index> faces, std::vector<Index>& values) {
-    StartChain chain;
-    std::vector<Index> apexes(faces.size());
+  /// Writes the triangles of `faces` to `out`, and tells whether FB_ngon_encoding holds.
+  bool write(std::span<const Index> faces, Index*& out) {
+    apexes_.resize(faces.size());
+    for (size_t i = 0; i < faces.size(); ++i) apexes_[i] = fanApex(faces[i]);
+    const bool ngons = chain_.choose(faces.size(), [&](size_t i) { return startsOf(faces[i], apexes_[i]); });
     for (size_t i = 0; i < faces.size(); ++i) {
-      apexes[i] = fanApex(faces[i]);
-      addStarts(polygons_[faces[i]].exterior, apexes[i], chain);
-    }
-    const bool ngons = chain.choose();
-    for (size_t i = 0; i < faces.size(); ++i) {
-      const Ring ring = polygons_[faces[i]].exterior;
-      if (apexes[i] == kNone)
-        list(faces[i], values);
+      const Index degree = mesh_.polygons.face_degrees[faces[i]];
+      if (apexes_[i] == kNone)
+        list(faces[i], out);
       else
-        fan(ring, apexes[i] + chain.chosen(i) * stepOf(ring.degree), values);
+        fan(faces[i], apexes_[i] + chain_.chosen(i) * stepOf(degree), out);
     }
     return ngons;
   }
@@ -83,6 +80,7 @@ class TriangleWriter {
  private:
   /// The first corner that all triangles of the face share; kNone if they are no fan.
   Index fanApex(Index face) {
+    if (const Index apex = plainFanApex(face); apex != kNone) return apex;
     const Polygon polygon = polygons_[face];
     const Index count = mesh_.triangulation.counts[face];
     shape_.triangles.resize(count);
@@ -93,33 +91,59 @@ class TriangleWriter {
     return shape_.kind == Kind::kFan ? shape_.apex : kNone;
   }
 
+  /// The same for most fans, whose triangles all begin with the apex and go round; kNone for others. All corners of a
+  /// triangle are apexes, and both ends of a quad's diagonal.
+  Index plainFanApex(Index face) const {
+    const Index degree = mesh_.polygons.face_degrees[face], first = polygons_.firstCorner(face);
+    if (!mesh_.ring_owners.empty() || degree < 3 || mesh_.triangulation.counts[face] != degree - 2) return kNone;
+    const Index* triangle = &mesh_.triangulation.corners[starts_[face]];
+    const Index apex = triangle[0] - first;
+    if (apex >= degree) return kNone;
+    for (Index i = 1; i + 1 < degree; ++i, triangle += 3) {
+      const bool next = triangle[0] == first + apex && triangle[1] == first + around(apex + i, degree) &&
+                        triangle[2] == first + around(apex + i + 1, degree);
+      if (!next) return kNone;
+    }
+    return degree == 3 ? 0 : degree == 4 ? apex & 1 : apex;
+  }
+
   /// From one possible apex of a fan to the next: in a triangle all corners are, in a quad the diagonal's ends.
   static Index stepOf(Index degree) { return degree == 4 ? 2 : 1; }
 
-  void addStarts(const Ring& ring, Index apex, StartChain& chain) const {
-    std::array<Index, 3> starts{};
-    const size_t count = apex == kNone ? 0 : ring.degree == 3 ? 3 : ring.degree == 4 ? 2 : 1;
-    for (Index i = 0; i < count; ++i) starts[i] = wedgeAt(ring, apex + i * stepOf(ring.degree));
-    chain.add(std::span(starts).first(count));
+  static Index around(Index local, Index degree) { return local < degree ? local : local - degree; }
+
+  Starts startsOf(Index face, Index apex) const {
+    Starts starts;
+    if (apex == kNone) return starts;
+    const Index degree = mesh_.polygons.face_degrees[face];
+    const Index* const ring = &wedges_[polygons_.firstCorner(face)];
+    starts.count = degree == 3 ? 3 : degree == 4 ? 2 : 1;
+    for (Index i = 0; i < starts.count; ++i) starts.wedges[i] = ring[around(apex + i * stepOf(degree), degree)];
+    return starts;
   }
 
-  void fan(const Ring& ring, Index apex, std::vector<Index>& values) const {
-    for (Index i = 1; i + 1 < ring.degree; ++i) {
-      values.insert(values.end(), {wedgeAt(ring, apex), wedgeAt(ring, apex + i), wedgeAt(ring, apex + i + 1)});
+  void fan(Index face, Index apex, Index*& out) const {
+    const Index degree = mesh_.polygons.face_degrees[face];
+    const Index* const ring = &wedges_[polygons_.firstCorner(face)];
+    for (Index i = 1; i + 1 < degree; ++i) {
+      *out++ = ring[around(apex, degree)];
+      *out++ = ring[around(apex + i, degree)];
+      *out++ = ring[around(apex + i + 1, degree)];
     }
   }
 
-  void list(Index face, std::vector<Index>& values) const {
+  void list(Index face, Index*& out) const {
     for (Index i = 0; i < 3 * mesh_.triangulation.counts[face]; ++i) {
-      values.push_back(mesh_.wedgeOf(mesh_.triangulation.corners[starts_[face] + i]));
+      *out++ = wedges_[mesh_.triangulation.corners[starts_[face] + i]];
     }
   }
-
-  Index wedgeAt(const Ring& ring, Index local) const { return mesh_.wedgeOf(ring.first + local % ring.degree); }
 
   const ArraySource& mesh_;
   const PolygonTable polygons_;
+  const Index* const wedges_;  ///< per corner
   const std::vector<Index> starts_;
+  std::vector<Index> apexes_;  ///< of a group's faces
+  StartChain chain_;
   Shape shape_;
   ShapeFinder finder_{shape_};
 };
@@ -133,13 +157,15 @@ TriangleArray triangleIndices(const ArraySource& mesh) {
   const PolygonOrder order(mesh);
   TriangleWriter writer(mesh);
   TriangleArray array;
-  array.values.reserve(mesh.triangulation.corners.size());
+  array.values.resize(mesh.triangulation.corners.size());
+  Index* out = array.values.data();
   for (Index g = 0; g < mesh.group_count; ++g) {
     const auto faces =
         std::span(order.faces).subspan(order.group_starts[g], order.group_starts[g + 1] - order.group_starts[g]);
-    array.group_starts.push_back(static_cast<Index>(array.values.size()));
-    array.ngon_encoding.push_back(writer.write(faces, array.values));
+    array.group_starts.push_back(static_cast<Index>(out - array.values.data()));
+    array.ngon_encoding.push_back(writer.write(faces, out));
   }
+  array.values.resize(static_cast<size_t>(out - array.values.data()));
   array.group_starts.push_back(static_cast<Index>(array.values.size()));
   return array;
 }

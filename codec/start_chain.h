@@ -2,71 +2,75 @@
 // Where the polygons of FB_ngon_encoding start.
 
 #include <array>
-#include <span>
+#include <cstdint>
 #include <vector>
 
 #include "codec/mesh.h"
 
 namespace tutte {
 
+/// The wedges that a polygon may start at, the preferred ones first; none if it is no fan.
+struct Starts {
+  std::array<Index, 3> wedges{};
+  uint32_t count = 0;
+};
+
 /// Chooses the wedge that each fan starts at, so that no two neighbours in the order start at the same one. A triangle
 /// may start at any of its corners, a quad at either end of its diagonal, a larger fan at its apex only: the choices
-/// form a chain, which one pass forwards and one back settle. O(n).
+/// form a chain, which one pass forwards and one back settle. O(n), a byte per polygon.
 class StartChain {
  public:
-  /// The next polygon: the wedges that it may start at, 1 to 3, the preferred ones first; none if it is no fan.
-  void add(std::span<const Index> starts) {
-    Link link;
-    for (const Index start : starts) link.starts[link.count++] = start;
-    links_.push_back(link);
-  }
-
-  /// False when some polygon is no fan, or neighbours cannot be told apart; most others are right even then.
-  bool choose() {
+  /// `startsOf(i)` gives polygon i's starts, each time the same. False when some polygon is no fan, or neighbours
+  /// cannot be told apart; most others are right even then.
+  template <class StartsOf>
+  bool choose(size_t count, StartsOf startsOf) {
+    choices_.resize(count);
     bool all = true;
-    for (size_t i = 0; i < links_.size(); ++i) all &= reach(i);
-    for (size_t i = links_.size(); i-- > 0;) settle(i);
+    Reached reached;
+    for (size_t i = 0; i < count; ++i) all &= reach(startsOf(i), reached, choices_[i]);
+    Index after = kNone;
+    for (size_t i = count; i-- > 0;) settle(startsOf(i), after, choices_[i]);
     return all;
   }
 
   /// After choose(): which of polygon i's starts was taken.
-  Index chosen(size_t i) const { return links_[i].chosen; }
+  Index chosen(size_t i) const { return choices_[i]; }
 
  private:
-  struct Link {
-    std::array<Index, 3> starts{};
-    uint8_t count = 0;
-    uint8_t reachable = 0;  ///< bit s: start s goes with some start of the polygon before
-    uint8_t chosen = 0;
+  /// The wedges that the last polygon may start at after all before it: any other than `single` can follow.
+  struct Reached {
+    Index single = kNone;  ///< kNone: several, or none of a polygon that is no fan
   };
 
-  bool reach(size_t i) {
-    Link& link = links_[i];
-    for (int s = 0; s < link.count; ++s) link.reachable |= static_cast<uint8_t>(follows(i, link.starts[s]) << s);
-    if (link.reachable != 0) return true;
-    link.reachable = static_cast<uint8_t>((1 << link.count) - 1);
-    return false;
-  }
-
-  bool follows(size_t i, Index start) const {
-    if (i == 0 || links_[i - 1].count == 0) return true;
-    const Link& before = links_[i - 1];
-    for (int s = 0; s < before.count; ++s) {
-      if ((before.reachable >> s & 1) && before.starts[s] != start) return true;
+  /// `choices`: bit s: start s goes with some start of the polygon before.
+  static bool reach(const Starts& starts, Reached& reached, uint8_t& choices) {
+    uint32_t reachable = 0;
+    for (uint32_t s = 0; s < starts.count; ++s) reachable |= uint32_t{starts.wedges[s] != reached.single} << s;
+    const bool some = reachable != 0;
+    if (!some) reachable = (1u << starts.count) - 1;
+    choices = static_cast<uint8_t>(reachable);
+    reached.single = kNone;
+    uint32_t others = 0;
+    for (uint32_t s = starts.count; s-- > 0;) {
+      if ((reachable >> s & 1) == 0) continue;
+      others += reached.single != kNone && reached.single != starts.wedges[s];
+      reached.single = starts.wedges[s];
     }
-    return false;
+    if (others > 0) reached.single = kNone;
+    return some;
   }
 
-  void settle(size_t i) {
-    Link& link = links_[i];
-    const bool last = i + 1 == links_.size() || links_[i + 1].count == 0;
-    const Index after = last ? kNone : links_[i + 1].starts[links_[i + 1].chosen];
-    for (int s = link.count; s-- > 0;) {
-      if ((link.reachable >> s & 1) && link.starts[s] != after) link.chosen = static_cast<uint8_t>(s);
+  /// From reachable starts to the one that is taken; `after` is where the next polygon starts.
+  static void settle(const Starts& starts, Index& after, uint8_t& choice) {
+    const uint8_t reachable = choice;
+    choice = 0;
+    for (uint32_t s = starts.count; s-- > 0;) {
+      if ((reachable >> s & 1) && starts.wedges[s] != after) choice = static_cast<uint8_t>(s);
     }
+    after = starts.count == 0 ? kNone : starts.wedges[choice];
   }
 
-  std::vector<Link> links_;
+  std::vector<uint8_t> choices_;
 };
 
 }  // namespace tutte
