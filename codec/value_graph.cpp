@@ -130,13 +130,11 @@ void ValueGraph::listFans() {
   }
 }
 
-CornerList ValueGraph::corners(Index site) const {
+ValueGraph::CornerList ValueGraph::corners(Index site) const {
   CornerList list;
   withFaces([&](const auto& faces) {
-    forFans(faces, site, [&](std::span<const Index> fan, bool) {
-      std::ranges::copy(fan, list.corners.begin() + list.count);
-      list.count += static_cast<Index>(fan.size());
-    });
+    goRound(
+        faces, site, [&](Index corner, Index) { list.corners[list.count++] = corner; }, [](Index, Index) {});
   });
   return list;
 }

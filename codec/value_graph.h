@@ -13,18 +13,22 @@ namespace tutte {
 
 /// The ways round the faces of a mesh that has nothing but triangles.
 struct TriangleFaces {
-  static constexpr bool kAllTriangles = true;
+  static constexpr bool kAllTriangles = true, kListed = false;
 
   Index degree(Index) const { return 3; }
   // Sums, because compilers make decisions of comparisons, and which corner it is nobody foresees.
-  Index next(Index corner) const { return corner + 1 - (corner % 3 >> 1) * 3; }
-  Index prev(Index corner) const { return corner - 1 + ((2 - corner % 3) >> 1) * 3; }
+  Index next(Index corner) const { return corner + 1 - 3 * isFirst(corner + 1); }
+  Index prev(Index corner) const { return corner - 1 + 3 * isFirst(corner); }
+
+ private:
+  // By the inverse of 3: it turns multiples of 3 into the lowest third of all numbers, and no others.
+  static Index isFirst(Index corner) { return corner * 0xAAAAAAABu <= 0x55555555u; }
 };
 
 /// The same for any faces, from a word per corner: 12 bits the way to the corner before it, 12 bits to the one after
 /// it, 8 bits the degree.
 struct AnyFaces {
-  static constexpr bool kAllTriangles = false;
+  static constexpr bool kAllTriangles = false, kListed = false;
   static constexpr uint32_t kMostDegree = 255;
 
   const uint32_t* shapes;
@@ -34,17 +38,6 @@ struct AnyFaces {
     return corner + static_cast<Index>(static_cast<int32_t>(shapes[corner] << 12) >> 20);
   }
   Index prev(Index corner) const { return corner + static_cast<Index>(static_cast<int32_t>(shapes[corner]) >> 20); }
-};
-
-/// The corners of a site.
-struct CornerList {
-  static constexpr Index kMost = 60;
-
-  std::array<Index, kMost> corners;
-  Index count = 0;
-
-  const Index* begin() const { return corners.data(); }
-  const Index* end() const { return corners.data() + count; }
 };
 
 /// The sites of one attribute over a mesh, as predictors see them. 4 bytes per site, and 4 more per corner each: where
@@ -60,6 +53,8 @@ class ValueGraph {
   ValueGraph(const Connectivity& mesh, std::vector<Index> sites, Index site_count);
   ValueGraph(ValueGraph&&) = default;
 
+  static constexpr Index kMostCorners = 60;  ///< of a site; further ones are not looked at
+
   Index siteCount() const { return site_count_; }
   Index cornerCount() const { return static_cast<Index>(sites_.size()); }
 
@@ -74,34 +69,62 @@ class ValueGraph {
   Index next(Index corner) const { return shapes_.empty() ? TriangleFaces{}.next(corner) : any().next(corner); }
   Index prev(Index corner) const { return shapes_.empty() ? TriangleFaces{}.prev(corner) : any().prev(corner); }
 
-  /// Calls visit(faces) with TriangleFaces or AnyFaces: for those who go round many of them.
+  /// Calls visit(faces) with what goRound() asks for: for those who go round many of them.
   template <class Visit>
-  auto withFaces(Visit visit) const {
-    return shapes_.empty() ? visit(TriangleFaces{}) : visit(any());
+  void withFaces(Visit visit) const {
+    if (!fans_.empty()) return visit(ListedFaces{*this});
+    shapes_.empty() ? visit(TriangleFaces{}) : visit(any());
   }
 
-  /// Calls visit(corners, closed) for each fan of a site: corners that share edges, each with the one before it the
-  /// edge to its own `next`; in a closed fan, the first with the last, too. An open fan begins where an edge has no
-  /// twin, a closed one with its lowest corner; open fans come first. At most 60 corners in all; those of faces of
-  /// degree below 3 do not count. A fan that is cut short is not closed.
-  template <class Faces, class Visit>
-  [[gnu::always_inline]] void forFans(const Faces& faces, Index site, Visit visit) const {
-    if (!fans_.empty()) return forListedFans(faces, site, visit);
+  /// Goes round a site: calls step(corner, prev) for each corner, prev being the one before it in its face, and
+  /// end(first, beyond) after each fan: corners that share edges, each with the one before it the edge to its own
+  /// `next`; in a closed fan, the first with the last, too. `first` is the fan's first corner, and `beyond` the twin of
+  /// the last `prev`, which is `first` in a closed fan. An open fan begins where an edge has no twin, a closed one with
+  /// its lowest corner; open fans come first. At most 60 corners in all; those of faces of degree below 3 do not count.
+  template <class Faces, class Step, class End>
+  [[gnu::always_inline]] void goRound(const Faces& faces, Index site, Step step, End end) const {
+    if constexpr (Faces::kListed) return goRoundList(site, step, end);
     const Index first = starts_[site];
     if (first == kNone) return;
-    CornerList fan;
-    Index corner = first;
+    Index corner = first, rest = kMostCorners;
     do {
-      fan.corners[fan.count++] = corner;
-      corner = twins_[faces.prev(corner)];
-    } while (corner != kNone && corner != first && fan.count < CornerList::kMost);
-    visit(std::span<const Index>(fan), corner == first);
+      const Index prev = faces.prev(corner);
+      step(corner, prev);
+      corner = twins_[prev];
+    } while (corner != kNone && corner != first && --rest > 0);
+    end(first, corner);
   }
+
+  /// A fan of the site is open.
+  bool isOpen(Index site) const {
+    const Index first = firstCorner(site);
+    return first != kNone && twins_[first] == kNone;
+  }
+
+  /// The corners of a site.
+  struct CornerList {
+    std::array<Index, kMostCorners> corners;
+    Index count = 0;
+
+    const Index* begin() const { return corners.data(); }
+    const Index* end() const { return corners.data() + count; }
+  };
 
   /// All of them.
   CornerList corners(Index site) const;
 
  private:
+  // Where not every site is one fan, so that fans are listed; few meshes are worth code of their own.
+  struct ListedFaces {
+    static constexpr bool kAllTriangles = false, kListed = true;
+
+    const ValueGraph& graph;
+
+    Index degree(Index corner) const { return graph.degree(corner); }
+    Index next(Index corner) const { return graph.next(corner); }
+    Index prev(Index corner) const { return graph.prev(corner); }
+  };
+
   static constexpr Index kLast = 1u << 31;  // marks the last corner of a fan
 
   AnyFaces any() const { return {shapes_.data()}; }
@@ -110,14 +133,21 @@ class ValueGraph {
   void listFans();
   void dropSeamTwins();
 
-  template <class Faces, class Visit>
-  void forListedFans(const Faces& faces, Index site, Visit visit) const {
-    CornerList fan;
-    for (Index at = starts_[site], rest = CornerList::kMost; at < starts_[site + 1] && rest > 0; ++at, --rest) {
-      const Index corner = fan.corners[fan.count++] = fans_[at] & ~kLast;
+  Index firstCorner(Index site) const {
+    if (fans_.empty()) return starts_[site];
+    return starts_[site] < starts_[site + 1] ? fans_[starts_[site]] & ~kLast : kNone;
+  }
+
+  template <class Step, class End>
+  [[gnu::always_inline]] void goRoundList(Index site, Step step, End end) const {
+    Index first = kNone;
+    for (Index at = starts_[site], rest = kMostCorners; at < starts_[site + 1] && rest > 0; ++at, --rest) {
+      const Index corner = fans_[at] & ~kLast, before = prev(corner);
+      if (first == kNone) first = corner;
+      step(corner, before);
       if (corner == fans_[at] && rest > 1) continue;
-      visit(std::span<const Index>(fan), twins_[faces.prev(corner)] == fan.corners[0]);
-      fan.count = 0;
+      end(first, twins_[before]);
+      first = kNone;
     }
   }
 

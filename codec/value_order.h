@@ -5,50 +5,28 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "codec/value_graph.h"
+#include "codec/mesh.h"
 
 namespace tutte {
-
-/// Sites that have become more urgent, and by how much, after one site has become known.
-class Urgencies {
- public:
-  /// A site, and in the upper half by how much.
-  using Entry = uint64_t;
-
-  /// Whether a site is known is hard to foresee, so nothing is decided here: the list grows by 0 or 1.
-  void add(Index site, Index amount, bool really) {
-    entries_[count_] = Entry{amount} << 32 | site;
-    count_ += really;
-  }
-
-  void clear() { count_ = 0; }
-  std::span<const Entry> entries() const { return {entries_.data(), count_}; }
-
- private:
-  // Of each corner two sites beside it, and one that is opposite.
-  std::array<Entry, 3 * CornerList::kMost + 1> entries_;
-  size_t count_ = 0;
-};
 
 /// Always one of the sites with the most known surroundings is next, so that most values are predicted by several
 /// parallelograms. A function of the graph alone. O(corners) in all.
 ///
-/// Per site: urge(), then learn().
+/// Per site: urge() others, then learn() it.
 class SiteOrder {
  public:
-  explicit SiteOrder(Index sites) : states_(sites, kUnknown) {
-    for (Stack& stack : stacks_) stack.sites.resize(64);
-  }
+  explicit SiteOrder(Index sites) : states_(sites, kUnknown) {}
 
   /// The next site; there must be one that is not known.
   Index next() {
     for (; top_ >= 0; --top_) {
-      Stack& stack = stacks_[top_];
-      while (stack.size > 0) {
-        const Index site = stack.sites[--stack.size];
+      Stack& stack = stacks_[static_cast<size_t>(top_)];
+      while (!stack.empty()) {
+        const Index site = stack.pop();
         if (!known(site)) return site;
       }
     }
@@ -66,41 +44,51 @@ class SiteOrder {
   /// A site is known from now on.
   void learn(Index site) { states_[site] = known_++; }
 
-  /// The sites must not be known.
-  void urge(std::span<const Urgencies::Entry> entries) {
-    for (const Urgencies::Entry entry : entries) {
-      const auto site = static_cast<Index>(entry), amount = static_cast<Index>(entry >> 32);
-      const unsigned before = states_[site] - kUnknown;
-      const unsigned now = std::clamp(before + amount, 1u, kMost);
-      states_[site] = kUnknown + now;
-      const unsigned level = kLevelOf[now];
-      const bool rises = level != kLevelOf[before];
-      Stack& stack = stacks_[level];
-      stack.sites[stack.size] = site;
-      stack.size += rises;
-      if (stack.size == stack.sites.size()) stack.sites.resize(2 * stack.size);
-      top_ = rises ? std::max(top_, static_cast<int>(level)) : top_;
-    }
+  /// A site, which is not known, becomes more urgent, by 64 at most.
+  void urge(Index site, Index amount) {
+    const Index before = states_[site] - kUnknown;
+    if (before >= kEnough) return;
+    const Index now = before + amount + (before + amount == 0);
+    states_[site] = kUnknown + now;
+    const int level = kLevelOf[now];
+    if (level == kLevelOf[before]) return;
+    stacks_[static_cast<size_t>(level)].push(site);
+    top_ = std::max(top_, level);
   }
 
  private:
   static constexpr int kLevels = 6;
-  static constexpr unsigned kMost = 253;
+  static constexpr Index kEnough = 1u << (kLevels - 1);  // has the highest level
   static constexpr Index kUnknown = 1u << 31;
 
   // One less than the number of binary digits of the score, at most 5; without a score no level.
-  static constexpr std::array<uint8_t, kMost + 1> kLevelOf = [] {
-    std::array<uint8_t, kMost + 1> levels{};
-    for (unsigned score = 0; score <= kMost; ++score) {
-      levels[score] = static_cast<uint8_t>(std::min<unsigned>(static_cast<unsigned>(std::bit_width(score)) - 1, 5));
+  static constexpr std::array<int8_t, kEnough + 64> kLevelOf = [] {
+    std::array<int8_t, kEnough + 64> levels{};
+    for (unsigned score = 0; score < levels.size(); ++score) {
+      levels[score] = static_cast<int8_t>(std::min(static_cast<int>(std::bit_width(score)) - 1, kLevels - 1));
     }
-    levels[0] = 255;
     return levels;
   }();
 
-  struct Stack {
-    std::vector<Index> sites;  // with room for one more
-    size_t size = 0;
+  class Stack {
+   public:
+    bool empty() const { return size_ == 0; }
+    Index pop() { return sites_[--size_]; }
+    void push(Index site) {
+      if (size_ == room_) grow();
+      sites_[size_++] = site;
+    }
+
+   private:
+    [[gnu::noinline]] void grow() {
+      std::unique_ptr<Index[]> larger(new Index[2 * room_]);
+      std::copy_n(sites_.get(), size_, larger.get());
+      sites_ = std::move(larger);
+      room_ *= 2;
+    }
+
+    uint32_t size_ = 0, room_ = 64;
+    std::unique_ptr<Index[]> sites_{new Index[room_]};
   };
 
   std::vector<Index> states_;  // the rank of a known site; kUnknown and the score of others

@@ -69,45 +69,70 @@ class SurroundingsFinder {
     }
   };
 
-  /// A site beside the one whose turn it is, and how much more urgent it becomes.
-  struct Side {
-    Index site, rank, urgency;
+  static constexpr int kCorners = static_cast<int>(ValueGraph::kMostCorners);
 
-    bool known() const { return SiteOrder::isRank(rank); }
+  /// The sites beside the one whose turn it is, fan by fan, and the face before each: between it and the side before.
+  struct Sides {
+    template <class T>
+    using PerSide = std::array<T, 2 * kCorners>;
+
+    PerSide<Index> site, rank;
+    PerSide<Index> corner;    ///< of the face, at this side; kNone: a fan begins here
+    PerSide<Index> far;       ///< the corner before that one
+    PerSide<Index> far_rank;  ///< its site's; only among other faces than triangles
   };
 
-  static constexpr int kCorners = CornerList::kMost;
+  /// A fan of faces, which lie between sides. In all sets bit i is the side, or the face before the side, that comes i
+  /// before the last.
+  struct Fan {
+    size_t last;
+    int faces;
+    bool closed;  ///< the last side is the first one, too
+    uint64_t known = 0, far_known = 0, triangles = 0, quads = 0;
+
+    size_t side(int bit) const { return last - static_cast<size_t>(bit); }
+    uint64_t all() const { return (uint64_t{1} << faces) - 1; }
+    /// Sides; in a closed fan without the last, whose part in a set wrapped() adds to the first's.
+    uint64_t unknown() const { return ~known & ((uint64_t{2} << faces) - 1 - closed); }
+    uint64_t wrapped(uint64_t set) const { return set | (set & closed) << faces; }
+  };
+
   struct Lists {
     List<Index, 2 * kCorners> neighbours;
     List<Term, kCorners> within, across, planes;
     List<Term, 2 * kCorners> scaled;
     List<Term, 3 * kCorners> edges;
     List<Term, kMostFar> over, straight;
+    Sides sides;
   };
 
   void fill();
   template <class Faces>
   void find(const Faces& faces, Index site, Surroundings& found);
   template <class Faces>
-  void visitFan(const Faces& faces, std::span<const Index> fan, bool closed);
+  size_t gather(const Faces& faces, Index site);
   template <class Faces>
-  void visitTriangle(const Faces& faces, Index corner, Side& a, Side& b);
-  void visitQuad(const AnyFaces& faces, Index corner, Side& a, Side& b);
-  void visitPolygon(const AnyFaces& faces, Index corner, Side& a, Side& b);
+  void beginFan(const Faces& faces, Index first, Index beyond, size_t begin, size_t last);
   template <class Faces>
-  void addEdges(const Faces& faces, Index corner, Index a, Index b);
-  void lookFar(const AnyFaces& faces, Index corner);
+  void visitFan(const Faces& faces, const Fan& fan);
+  template <class Faces>
+  void addAcross(const Faces& faces, size_t side);
+  template <class Faces>
+  bool visitPolygon(const Faces& faces, size_t side);
+  void urgeSides(const Fan& fan);
+  void urgeSides(const Fan& fan, uint64_t far_first);
+  template <class Faces>
+  void addEdges(const Faces& faces, size_t side);
+  template <class Faces>
+  void lookFar(const Faces& faces, size_t end);
   void lookFar(Index a, Index c, Index beyond_a, Index beyond_c, Index degree);
-
-  void addEdge(Index p, Index q) {
-    const Index from = order_.rank(p), to = order_.rank(q);
-    lists_->edges.add({from, to, p, q}, SiteOrder::isRank(from) & SiteOrder::isRank(to));
+  void addEdge(Index from, Index from_rank, Index to, Index to_rank) {
+    lists_->edges.add({from_rank, to_rank, from, to}, SiteOrder::isRank(from_rank | to_rank));
   }
 
   const ValueGraph& graph_;
   const bool want_edges_;
   SiteOrder order_;
-  Urgencies urgencies_;
   std::unique_ptr<Lists> lists_;
   std::array<Surroundings, kBatch> batch_;
   int at_ = 0, count_ = 0;
