@@ -37,7 +37,7 @@ class Copies {
     state_ = link.original != kNone && nodes_.known(link.original) ? &states_[link.copy] : nullptr;
     predicted_ = state_ != nullptr && state_->motion.known();
     if (state_ == nullptr) return false;
-    source_ = nodes_[nodes_.rankOf(link.original)].value;
+    source_ = nodes_[link.original].value;
     if (!predicted_) return false;
     if (!state_->begun) begin();
     own_ = own;

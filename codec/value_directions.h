@@ -161,7 +161,7 @@ class DirectionGuide {
 
   const Nodes<2>& nodes_;
   std::vector<SurfaceNormals> surface_;  // by site; empty: unknown
-  std::vector<State> states_;            // by rank
+  std::vector<State> states_;            // by site
   const int64_t centre_;
   bool last_inward_ = false;
 

@@ -15,7 +15,7 @@ namespace tutte::values {
 
 /// Codes sites whose value an earlier site has. If an edge at a boundary leads to a known site, and that one's value is
 /// also at another boundary, then the next site there is a candidate. Sites without known neighbours may name any
-/// earlier site. 12 to 16 bytes per site.
+/// earlier site. 8 to 12 bytes per site.
 template <int C>
 class Echoes {
  public:
@@ -27,10 +27,10 @@ class Echoes {
         last_(size_t{1} << (32 - shift_), kNone),
         same_(graph.siteCount(), kNone) {}
 
-  /// The rank of the earlier site that has the value of this one, or kNone. A writer looks for `value`.
+  /// The earlier site that has the value of this one, or kNone. A writer looks for `value`.
   template <class Port>
   Index code(Port& port, Index site, bool has_neighbours, const Vec<C, int32_t>& value) {
-    if (!has_neighbours) return codePlace(port, value);
+    if (!has_neighbours) return codePlace(port, site, value);
     const Index candidate = candidateFor(site);
     if (candidate == kNone) return kNone;
     const bool same = hits_[history_].code(port, nodes_[candidate].value == value);
@@ -40,11 +40,9 @@ class Echoes {
 
   /// A site's value is known: the last one that nodes have.
   void learn(Index site) {
-    const auto rank = static_cast<Index>(sites_.size());
-    Index& last = last_[slotOf(nodes_[rank].value)];
-    if (last != kNone && nodes_[last].value == nodes_[rank].value) same_[rank] = last;
-    last = rank;
-    sites_.push_back(site);
+    Index& last = last_[slotOf(nodes_[site].value)];
+    if (last != kNone && nodes_[last].value == nodes_[site].value) same_[site] = last;
+    last = site;
   }
 
  private:
@@ -57,6 +55,7 @@ class Echoes {
   }
 
   Index candidateFor(Index site) const {
+    if (!graph_.isOpen(site)) return kNone;
     for (const Index corner : graph_.corners(site)) {
       const Index prev = graph_.prev(corner);
       Index found = kNone;
@@ -71,12 +70,12 @@ class Echoes {
   // otherwise from the candidate to it.
   Index beside(Index neighbour, bool onwards) const {
     if (!nodes_.known(neighbour)) return kNone;
-    Index same = same_[nodes_.rankOf(neighbour)];
+    Index same = same_[neighbour];
     for (int i = 0; i < kMostSame && same != kNone; ++i, same = same_[same]) {
-      for (const Index corner : graph_.corners(sites_[same])) {
+      for (const Index corner : graph_.corners(same)) {
         const Index edge = onwards ? corner : graph_.prev(corner);
         const Index candidate = graph_.site(onwards ? graph_.next(corner) : edge);
-        if (graph_.twin(edge) == kNone && nodes_.known(candidate)) return nodes_.rankOf(candidate);
+        if (graph_.twin(edge) == kNone && nodes_.known(candidate)) return candidate;
       }
     }
     return kNone;
@@ -84,28 +83,26 @@ class Echoes {
 
   // How many sites ago: the number of binary digits of that, one by one, and the digits.
   template <class Port>
-  Index codePlace(Port& port, const Vec<C, int32_t>& value) {
-    const auto coded = static_cast<Index>(sites_.size());
+  Index codePlace(Port& port, Index site, const Vec<C, int32_t>& value) {
     Index ago = 0;
     if constexpr (Port::kWriting) {
       const Index last = last_[slotOf(value)];
-      if (last != kNone && nodes_[last].value == value) ago = coded - last;
+      if (last != kNone && nodes_[last].value == value) ago = site - last;
     }
-    const int digits = std::bit_width(ago), most = std::bit_width(coded);
+    const int digits = std::bit_width(ago), most = std::bit_width(site);
     int length = 0;
     while (length < most && longer_[static_cast<size_t>(length)].code(port, digits > length)) ++length;
     if (length == 0) return kNone;
     const uint32_t top = 1u << (length - 1);
     ago = top | port.bits(length - 1, ago & (top - 1));
-    return coded - std::min(ago, coded);
+    return site - std::min(ago, site);
   }
 
   const ValueGraph& graph_;
   const Nodes<C>& nodes_;
   const int components_, shift_;
-  std::vector<Index> last_;   // per hash: the rank of the last site with such a value
-  std::vector<Index> same_;   // per rank: that of an earlier site with the same value
-  std::vector<Index> sites_;  // per rank
+  std::vector<Index> last_;  // per hash: the last site with such a value
+  std::vector<Index> same_;  // per site: an earlier one with the same value
   std::array<Chance, 8> hits_;
   std::array<Chance, 33> longer_;
   uint32_t history_ = 0;

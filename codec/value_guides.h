@@ -62,7 +62,7 @@ class TexcoordGuide {
       here_error += states_[neighbour].here_error;
       stencil_error += states_[neighbour].stencil_error;
     }
-    for (const Term& edge : around.edges) develop(around.site, edge);
+    for (const Edge& edge : around.edges) develop(around.site, edge);
     stencil_base_ = here_base_ = stencil.base;
     if (count_ == 0) return;
     average();
@@ -93,18 +93,18 @@ class TexcoordGuide {
   };
 
   /// The prediction from an edge that runs round the face that the site belongs to.
-  void develop(Index site, const Term& term) {
+  void develop(Index site, const Edge& side) {
     if (count_ == Stencil<2, int32_t>::kMostMembers) return;
-    Vector3 edge = places_.between(term.x, term.y), leg = places_.between(term.x, site);
+    Vector3 edge = places_.between(side.from, side.to), leg = places_.between(side.from, site);
     const int64_t largest = std::max(largestMagnitude(edge), largestMagnitude(leg));
     const int shift = static_cast<int>(std::bit_width(static_cast<uint64_t>(largest))) - 14;
     for (int i = 0; i < 3 && shift > 0; ++i) edge[i] >>= shift, leg[i] >>= shift;
     const int64_t square = dot(edge, edge), along = dot(edge, leg);
     if (square == 0) return;
     const int64_t across = squareRoot(static_cast<uint64_t>(dot(leg, leg) * square - along * along));
-    const std::array<int32_t, 2>&from = nodes_[term.a].value, &to = nodes_[term.b].value;
+    const std::array<int32_t, 2>&from = nodes_[side.from].value, &to = nodes_[side.to].value;
     const int64_t dx = int64_t{to[0]} - from[0], dy = int64_t{to[1]} - from[1];
-    const int64_t height = turnAt(term.a, term.b) < 0 ? -across : across;
+    const int64_t height = turnAt(side.from, side.to) < 0 ? -across : across;
     Vec<2, int32_t>& member = members_[count_];
     const auto place = [&](int32_t start, int64_t step) {
       const int64_t x = (int64_t{start} << kFraction) + step * (1 << kFraction) / square;
@@ -113,7 +113,7 @@ class TexcoordGuide {
     member[0] = place(from[0], along * dx - height * dy);
     member[1] = place(from[1], along * dy + height * dx);
     if (count_++ == 0) {
-      edge_ = term.a;
+      edge_ = side.from;
       edge_step_ = {dx, dy};
     }
   }
@@ -144,7 +144,7 @@ class TexcoordGuide {
 
   const Nodes<2>& nodes_;
   const Places places_;
-  std::vector<State> states_;  // by rank
+  std::vector<State> states_;  // by site
   const int64_t limit_;
   int8_t last_turn_ = 1;
 

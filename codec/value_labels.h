@@ -10,7 +10,6 @@
 
 #include "codec/value_graph.h"
 #include "codec/value_model.h"
-#include "codec/value_surroundings.h"
 
 namespace tutte::values {
 
@@ -24,7 +23,6 @@ class LabelCoder {
         graph_(graph),
         bits_(static_cast<int>(std::bit_width(count - 1))),
         count_(count),
-        finder_(graph, false),
         labels_(graph.siteCount(), kNone),
         slots_(size_t{kInputs} << kTableBits) {
     mixer_.fill(Mixer<kInputs>());
@@ -32,7 +30,7 @@ class LabelCoder {
 
   /// Codes the next site's label; a writer takes it from `labels`, which has all sites', a reader stores it there.
   void code(std::span<int32_t> labels) {
-    const Index site = finder_.next().site;
+    const Index site = next_++;
     const auto label = static_cast<uint32_t>(labels[site]);
     const std::array<uint32_t, kInputs> contexts = contextsOf(site);
     uint32_t node = 1;  // the bits so far below a leading one
@@ -83,7 +81,7 @@ class LabelCoder {
   const ValueGraph& graph_;
   const int bits_;
   const uint32_t count_;
-  SurroundingsFinder finder_;
+  Index next_ = 0;
   uint32_t last_ = 0;
   std::vector<uint32_t> labels_;  // per site; kNone: unknown
   std::vector<Chance> slots_;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <span>
 
 #include "codec/mesh.h"
 
@@ -24,20 +23,17 @@ struct alignas(C == 4 ? 16 : 8) Node {
 
 inline constexpr int32_t kLargestError = 1 << 20;
 
-/// The nodes in the order in which they became known, so that what is asked for together lies together.
+/// The nodes by site. Sites become known in the order of their numbers.
 template <int C>
 class Nodes {
  public:
-  /// `ranks` as SurroundingsFinder::ranks().
-  explicit Nodes(std::span<const Index> ranks)
-      : ranks_(ranks), nodes_(new Node<C>[ranks.size()]), picked_(new uint8_t[ranks.size()]) {}
+  explicit Nodes(Index sites) : nodes_(new Node<C>[sites]), picked_(new uint8_t[sites]) {}
 
-  const Node<C>& operator[](Index rank) const { return nodes_[rank]; }
+  const Node<C>& operator[](Index site) const { return nodes_[site]; }
   /// A single parallelogram was its prediction.
-  bool picked(Index rank) const { return picked_[rank] != 0; }
+  bool picked(Index site) const { return picked_[site] != 0; }
 
-  bool known(Index site) const { return ranks_[site] < count_; }
-  Index rankOf(Index site) const { return ranks_[site]; }
+  bool known(Index site) const { return site < count_; }
   Index count() const { return count_; }
 
   void add(const Node<C>& node, bool picked) {
@@ -46,7 +42,6 @@ class Nodes {
   }
 
  private:
-  std::span<const Index> ranks_;
   std::unique_ptr<Node<C>[]> nodes_;
   std::unique_ptr<uint8_t[]> picked_;
   Index count_ = 0;

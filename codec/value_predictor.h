@@ -37,7 +37,7 @@ class SitePredictor {
                 Residuals& residuals)
       : port_(port),
         finder_(graph, Guide::kWantsEdges),
-        nodes_(finder_.ranks()),
+        nodes_(graph.siteCount()),
         stencil_(nodes_),
         guide_(graph, nodes_, places, options.max),
         residuals_(residuals),

@@ -3,55 +3,59 @@
 // many sites in advance, by one text for all kinds of values.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 
 #include "codec/value_graph.h"
-#include "codec/value_order.h"
 
 namespace tutte::values {
 
-/// Known sites, by rank: how many were known before them.
+/// Known sites.
 struct Term {
   Index a, b, x, y;
 };
 
-/// The surroundings of a site.
-struct Surroundings {
-  Index site;
-  std::span<const Index> neighbours;  ///< ranks
-  std::span<const Term> scaled;       ///< predictions within large polygons: a + (b - x) * y / 4096
-  std::span<const Term> within;       ///< in quads: a + b - (x + y) / 2, x and y being the same
-  std::span<const Term> across;       ///< over edges of triangles: a + b - (x + y) / 2
-  std::span<const Term> planes;       ///< of large polygons: a, b and x lie in them
-  std::span<const Term> over;         ///< a + b - x; or, for y = 1, (3 a + b) / 2 - x
-  std::span<const Term> straight;     ///< 2 a - x, b being a
-  std::span<const Term> edges;        ///< from a to b, round faces of the site; x and y are these two as site numbers
+struct Edge {
+  Index from, to;
 };
 
-/// Goes from site to site in the order of SiteOrder.
+/// The surroundings of a site; all sites in them are known.
+struct Surroundings {
+  Index site;
+  std::span<const Index> neighbours;
+  std::span<const Term> scaled;    ///< predictions within large polygons: a + (b - x) * y / 4096
+  std::span<const Term> within;    ///< in quads: a + b - (x + y) / 2, x and y being the same
+  std::span<const Term> across;    ///< over edges of triangles: a + b - (x + y) / 2
+  std::span<const Term> planes;    ///< of large polygons: a, b and x lie in them
+  std::span<const Term> over;      ///< a + b - x; or, for y = 1, (3 a + b) / 2 - x
+  std::span<const Term> straight;  ///< 2 a - x, b being a
+  std::span<const Edge> edges;     ///< round faces of the site
+};
+
+/// Goes from site to site. The walk over the mesh has numbered its vertices as it met them, so that mostly a site's
+/// surroundings have lower numbers on one side: their numbers are the order in which sites become known.
 class SurroundingsFinder {
  public:
   /// Edges are listed only when they are wanted.
   SurroundingsFinder(const ValueGraph& graph, bool want_edges);
 
-  /// The next site's; valid until the next call. There must be one.
+  /// The next site's, from 0 on; valid until the next call. There must be one. Known are the sites before it.
   const Surroundings& next() {
     if (at_ == count_) fill();
     return batch_[at_++];
   }
 
-  /// Per site: its rank, if that is below the number of calls so far, the last one not counted; else it is unknown.
-  std::span<const Index> ranks() const { return order_.ranks(); }
-
  private:
-  static constexpr int kBatch = 32;
   static constexpr int kMostFar = 8;
+  static constexpr size_t kBatch = 32;          // sites
+  static constexpr size_t kBatchCorners = 192;  // their corners, but for those of the last one
+  static constexpr size_t kCorners = ValueGraph::kMostCorners;
 
-  template <class T, int kPerSite>
+  template <class T, size_t kPerCorner>
   struct List {
-    std::array<T, kBatch * kPerSite + 1> items;
+    std::array<T, (kBatchCorners + kCorners) * kPerCorner + 1> items;
     T *begin, *end;
 
     void restart() { begin = end = items.data(); }
@@ -69,48 +73,37 @@ class SurroundingsFinder {
     }
   };
 
-  static constexpr int kCorners = static_cast<int>(ValueGraph::kMostCorners);
-
   /// The sites beside the one whose turn it is, fan by fan, and the face before each: between it and the side before.
   struct Sides {
-    template <class T>
-    using PerSide = std::array<T, 2 * kCorners>;
-
-    PerSide<Index> site, rank;
-    PerSide<Index> corner;    ///< of the face, at this side; kNone: a fan begins here
-    PerSide<Index> far;       ///< the corner before that one
-    PerSide<Index> far_rank;  ///< its site's; only among other faces than triangles
+    std::array<Index, 2 * kCorners> site;
+    std::array<Index, 2 * kCorners> corner;  ///< of the face, at this side; kNone: a fan begins here
   };
 
   /// A fan of faces, which lie between sides. In all sets bit i is the side, or the face before the side, that comes i
   /// before the last.
   struct Fan {
     size_t last;
-    int faces;
-    bool closed;  ///< the last side is the first one, too
-    uint64_t known = 0, far_known = 0, triangles = 0, quads = 0;
+    size_t faces;
+    uint64_t known;
+    uint64_t large;  ///< faces of more than four corners
 
     size_t side(int bit) const { return last - static_cast<size_t>(bit); }
     uint64_t all() const { return (uint64_t{1} << faces) - 1; }
-    /// Sides; in a closed fan without the last, whose part in a set wrapped() adds to the first's.
-    uint64_t unknown() const { return ~known & ((uint64_t{2} << faces) - 1 - closed); }
-    uint64_t wrapped(uint64_t set) const { return set | (set & closed) << faces; }
   };
 
   struct Lists {
-    List<Index, 2 * kCorners> neighbours;
-    List<Term, kCorners> within, across, planes;
-    List<Term, 2 * kCorners> scaled;
-    List<Term, 3 * kCorners> edges;
-    List<Term, kMostFar> over, straight;
+    List<Index, 2> neighbours;
+    List<Term, 1> within, across, planes;
+    List<Term, 2> scaled, over, straight;
+    List<Edge, 3> edges;
     Sides sides;
   };
 
   void fill();
   template <class Faces>
-  void find(const Faces& faces, Index site, Surroundings& found);
+  size_t find(const Faces& faces, Surroundings& found);
   template <class Faces>
-  size_t gather(const Faces& faces, Index site);
+  size_t gather(const Faces& faces);
   template <class Faces>
   void beginFan(const Faces& faces, Index first, Index beyond, size_t begin, size_t last);
   template <class Faces>
@@ -118,24 +111,24 @@ class SurroundingsFinder {
   template <class Faces>
   void addAcross(const Faces& faces, size_t side);
   template <class Faces>
-  bool visitPolygon(const Faces& faces, size_t side);
-  void urgeSides(const Fan& fan);
-  void urgeSides(const Fan& fan, uint64_t far_first);
+  void addWithin(const Faces& faces, size_t side);
+  template <class Faces>
+  void visitLarge(const Faces& faces, size_t side);
   template <class Faces>
   void addEdges(const Faces& faces, size_t side);
   template <class Faces>
   void lookFar(const Faces& faces, size_t end);
   void lookFar(Index a, Index c, Index beyond_a, Index beyond_c, Index degree);
-  void addEdge(Index from, Index from_rank, Index to, Index to_rank) {
-    lists_->edges.add({from_rank, to_rank, from, to}, SiteOrder::isRank(from_rank | to_rank));
-  }
+  void addEdge(Index from, Index to) { lists_->edges.add({from, to}, known(from) & known(to)); }
+
+  bool known(Index site) const { return site < site_; }
 
   const ValueGraph& graph_;
   const bool want_edges_;
-  SiteOrder order_;
+  Index site_ = 0;  // whose turn it is
   std::unique_ptr<Lists> lists_;
   std::array<Surroundings, kBatch> batch_;
-  int at_ = 0, count_ = 0;
+  size_t at_ = 0, count_ = 0;
 };
 
 }  // namespace tutte::values

@@ -6,7 +6,7 @@ from value_models import Chances, bit_length
 
 class Echoes:
     def __init__(self, coder):
-        self.coder, self.places, self.coded, self.last, self.same = coder, {}, [], {}, {}
+        self.coder, self.last, self.same = coder, {}, {}
         self.bits = min(bit_length(coder.graph.site_count), 28)
         self.hits, self.longer, self.history = Chances(), Chances(), 0
 
@@ -18,7 +18,7 @@ class Echoes:
 
     def read(self, stream, site, has_neighbours):
         if not has_neighbours:
-            return self.read_place(stream)
+            return self.read_place(stream, site)
         candidate = self.candidate(site)
         if candidate is None:
             return None
@@ -37,27 +37,27 @@ class Echoes:
         return None
 
     def beside(self, neighbour, onwards):
-        graph, known = self.coder.graph, self.coder.order.known
-        same = self.same.get(neighbour) if known[neighbour] else None
+        graph, known = self.coder.graph, self.coder.known
+        same = self.same.get(neighbour) if known(neighbour) else None
         for _ in range(4):
             if same is None:
                 return None
             for corner in graph.corners(same):
                 edge = corner if onwards else graph.prev[corner]
                 other = graph.site[graph.next[corner] if onwards else edge]
-                if graph.twin[edge] is None and known[other]:
+                if graph.twin[edge] is None and known(other):
                     return other
             same = self.same.get(same)
         return None
 
-    def read_place(self, stream):
-        length, most = 0, bit_length(len(self.coded))
+    def read_place(self, stream, site):
+        length, most = 0, bit_length(site)
         while length < most and self.longer[length].read(stream):
             length += 1
         if length == 0:
             return None
         ago = 1 << (length - 1) | stream.plain(length - 1)
-        return self.coded[len(self.coded) - min(ago, len(self.coded))]
+        return site - min(ago, site)
 
     def learn(self, site):
         value = self.coder.values[site]
@@ -65,4 +65,3 @@ class Echoes:
         if slot in self.last and self.coder.values[self.last[slot]] == value:
             self.same[site] = self.last[slot]
         self.last[slot] = site
-        self.coded.append(site)

@@ -63,18 +63,18 @@ class Textures:
         self.here, self.given, self.turns, self.last_turn = {}, {}, {}, 1
 
     def refine(self, site, around):
-        graph, known = self.coder.graph, self.coder.order.known
+        graph, known = self.coder.graph, self.coder.known
         self.members, self.first = [], None
         here = given = 0
         for corner in graph.corners(site):
             n, p = graph.next[corner], graph.prev[corner]
             a, b, c, d = (graph.site[x] for x in (n, p, graph.next[n], graph.prev[p]))
-            weighed = [a] * known[a] + [b] * (known[b] and graph.twin[p] is None)
+            weighed = [a] * known(a) + [b] * (known(b) and graph.twin[p] is None)
             here += sum(self.here[s] for s in weighed)
             given += sum(self.given[s] for s in weighed)
             edges = [(a, b)] + ([(a, c), (d, b)] if graph.degree[corner] > 3 else [])
             for start, end in edges:
-                if known[start] and known[end]:
+                if known(start) and known(end):
                     self.develop(site, start, end)
         self.given_base = self.here_base = around.base
         if not self.members:

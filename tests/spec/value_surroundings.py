@@ -13,24 +13,24 @@ POLYGONS = {4: (4096, 4096), 5: (6627, 2531), 6: (8192, 2048), 7: (9204, 1823), 
 class Surroundings:
     def __init__(self, coder, site):
         self.coder, self.m = coder, coder.m
-        graph, known, values = coder.graph, coder.order.known, coder.values
+        graph, known, values = coder.graph, coder.known, coder.values
         self.neighbours, self.normal = [], [0, 0, 0]
         polygons, quads, triangles, normals = [], [], [], []
         for corner in graph.corners(site):
             n, p = graph.next[corner], graph.prev[corner]
             a, b, c, d = (graph.site[x] for x in (n, p, graph.next[n], graph.prev[p]))
-            if known[a]:
+            if known(a):
                 self.neighbours.append(a)
-            if known[b] and graph.twin[p] is None:
+            if known(b) and graph.twin[p] is None:
                 self.neighbours.append(b)
             degree = graph.degree[corner]
-            if degree == 3 and known[a] and known[b] and graph.twin[n] is not None:
+            if degree == 3 and known(a) and known(b) and graph.twin[n] is not None:
                 twin = graph.twin[n]
                 x = graph.site[graph.prev[twin]]
                 y = x if graph.degree[twin] == 3 else graph.site[graph.next[graph.next[twin]]]
-                if known[x] and known[y]:
+                if known(x) and known(y):
                     triangles.append((graph.site[graph.next[twin]], graph.site[twin], x, y))
-            elif degree == 4 and known[a] and known[b] and known[c]:
+            elif degree == 4 and known(a) and known(b) and known(c):
                 quads.append((a, b, c, c))
             elif degree > 4:
                 self.polygon(polygons, normals, degree, a, b, c, d, n, p)
@@ -45,21 +45,21 @@ class Surroundings:
         self.settle(site)
 
     def polygon(self, members, normals, degree, a, b, c, d, n, p):
-        graph, known = self.coder.graph, self.coder.order.known
+        graph, known = self.coder.graph, self.coder.known
         k, inverse = POLYGONS[min(degree, 16)]
-        if known[a] and known[b]:
-            if known[d]:
+        if known(a) and known(b):
+            if known(d):
                 self.scaled(members, b, a, d, inverse)
-            if known[c]:
+            if known(c):
                 self.scaled(members, a, b, c, inverse)
                 normals.append((b, a, c))
-        elif known[b] and known[d]:
+        elif known(b) and known(d):
             e = graph.site[graph.prev[graph.prev[p]]]
-            if known[e]:
+            if known(e):
                 self.scaled(members, e, b, d, k)
-        elif known[a] and known[c]:
+        elif known(a) and known(c):
             e = graph.site[graph.next[graph.next[n]]]
-            if known[e]:
+            if known(e):
                 self.scaled(members, e, a, c, k)
 
     def scaled(self, members, at, to, origin, factor):
@@ -102,13 +102,13 @@ class Surroundings:
             self.spread = [abs(self.lean[i] - self.base[i]) for i in range(m)]
 
     def far(self, site):
-        graph, known, v, across, straight = self.coder.graph, self.coder.order.known, self.coder.values, [], []
+        graph, known, v, across, straight = self.coder.graph, self.coder.known, self.coder.values, [], []
 
         def look(a, c, degree, y, x):
-            if known[x] and known[c] and len(across) < 8:
+            if known(x) and known(c) and len(across) < 8:
                 across.append([(3 * v[a][i] + v[c][i] - 2 * v[x][i]) * 8 if degree == 3 else
                                (v[a][i] + v[c][i] - v[x][i]) * 16 for i in range(self.m)])
-            if degree > 3 and known[y] and len(straight) < 8:
+            if degree > 3 and known(y) and len(straight) < 8:
                 straight.append([(2 * v[a][i] - v[y][i]) * 16 for i in range(self.m)])
 
         for corner in graph.corners(site):
@@ -117,10 +117,10 @@ class Surroundings:
             n, p = graph.next[corner], graph.prev[corner]
             q = graph.prev[p]
             a, b, t, u = graph.site[n], graph.site[p], graph.twin[n], graph.twin[q]
-            if known[a] and t is not None:
+            if known(a) and t is not None:
                 look(a, graph.site[graph.next[n]], graph.degree[t], graph.site[graph.next[graph.next[t]]],
                      graph.site[graph.prev[t]])
-            if known[b] and u is not None:
+            if known(b) and u is not None:
                 look(b, graph.site[q], graph.degree[u], graph.site[graph.prev[u]],
                      graph.site[graph.next[graph.next[u]]])
         return [(source, [mean(sum(x[i] for x in found), len(found)) for i in range(self.m)])

@@ -7,7 +7,7 @@ from value_copies import Copies
 from value_models import (Chances, Classes, Lengths, MixedChance, ValueStream, bit_length, cut, log4, varint)
 from value_echoes import Echoes
 from value_geometry import Directions, Textures
-from value_order import Graph, Order
+from value_sites import Graph
 from value_surroundings import WITHIN, Surroundings
 
 FAST, DEFAULT, SMALL = range(3)
@@ -19,7 +19,7 @@ PLAIN, POINTS, TEXTURE, DIRECTION, LABEL = range(5)
 class Coder:
     def __init__(self, graph, m, maximum, kind, profile, echoes, copies, stream, places):
         self.graph, self.m, self.max, self.kind, self.stream = graph, m, maximum, kind, stream
-        self.order, self.profile = Order(graph), profile
+        self.profile, self.coded = profile, 0
         self.values, self.errors, self.picked = {}, {}, {}
         self.last, self.typical = [0] * m, 64
         self.picks, self.indices, self.gains = Chances(6160), Chances(), {}
@@ -29,11 +29,13 @@ class Coder:
         self.guide = {TEXTURE: Textures, DIRECTION: Directions}.get(kind, lambda *_: None)(self, places)
 
     def run(self):
-        for _ in range(self.graph.site_count):
-            site = self.order.next()
-            self.site(site)
-            self.order.learn(site)
+        while self.coded < self.graph.site_count:
+            self.site(self.coded)
+            self.coded += 1
         return [x for site in range(self.graph.site_count) for x in self.values[site]]
+
+    def known(self, site):
+        return site < self.coded
 
     def site(self, site):
         around = Surroundings(self, site)
@@ -153,11 +155,10 @@ class Coder:
 # D.4.12 Labels
 
 def labels(graph, count, stream):
-    order, label_of, last, mixed = Order(graph), {}, 0, MixedChance()
+    label_of, last, mixed = {}, 0, MixedChance()
     slots = [Chances() for _ in range(5)]
     none = 2**32 - 1
-    for _ in range(graph.site_count):
-        site = order.next()
+    for site in range(graph.site_count):
         around, found, agreeing = [none] * 3, 0, 0
         for corner in graph.corners(site):
             for other in (graph.next[corner], graph.prev[corner]):
@@ -181,7 +182,6 @@ def labels(graph, count, stream):
                 bit = mixed.read(stream, bit_length(node), [slots[k][h] for k, h in enumerate(hashes)])
             node = node << 1 | bit
         label_of[site] = last = node - (1 << bits)
-        order.learn(site)
     return [label_of[site] for site in range(graph.site_count)]
 
 
