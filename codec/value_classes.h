@@ -1,6 +1,6 @@
 #pragma once
-// Adaptive coding of residuals by classes of sizes: one symbol of sixteen per residual, then its sign and digits. The
-// distributions of one or two contexts are blended. Fast: no decision is taken more than once per residual.
+// Adaptive coding of residuals by classes: one symbol of sixteen per residual, signs included, and plain digits. The
+// distributions of two contexts are averaged. Fast: no decision is taken more than once per residual.
 
 #include <algorithm>
 #include <array>
@@ -29,7 +29,7 @@ class Habits {
 
   void learn(uint32_t habit, int symbol) {
     uint8_t& seen = seen_[habit];
-    approach(distributions_[habit], kTargets[symbol], kRates[seen]);
+    approach(distributions_[habit], kTargets[static_cast<size_t>(symbol)], kRates[seen]);
     seen = static_cast<uint8_t>(seen + (seen < kLimit));
   }
 
@@ -49,9 +49,9 @@ class Habits {
     return targets;
   });
 
-  static TUTTE_TABLE std::array<int32_t, kLimit + 1> kRates = madeTable([] {
-    std::array<int32_t, kLimit + 1> rates{};
-    for (uint32_t n = 0; n <= kLimit; ++n) rates[n] = static_cast<int32_t>(655360 / (10 * n + 160));
+  static TUTTE_TABLE std::array<uint16_t, kLimit + 1> kRates = madeTable([] {
+    std::array<uint16_t, kLimit + 1> rates{};
+    for (uint32_t n = 0; n <= kLimit; ++n) rates[n] = static_cast<uint16_t>(65536 / (n + 12));
     return rates;
   });
 
@@ -59,100 +59,141 @@ class Habits {
   std::vector<uint8_t> seen_;  // how many symbols, at most kLimit
 };
 
-/// Residuals in classes: 0, 1, 2, 3, 4 to 5, 6 to 7, 8 to 11, 12 to 15 and so on, two for each bit length.
-inline int classOf(uint32_t magnitude) {
-  if (magnitude < 2) return static_cast<int>(magnitude);
-  const int length = std::bit_width(magnitude);
-  return 2 * (length - 1) + static_cast<int>(magnitude >> (length - 2) & 1);
-}
+/// Classes of residuals, in ascending order: symbols 0 to 14 are -15 to -12, -11 to -8, -7 and -6, -5 and -4, -3, -2,
+/// -1, 0, and the same upwards. Symbol 15 is everything else. With large residuals, all that is multiplied by a power
+/// of two.
+struct ResidualClass {
+  int8_t least, digits;
+};
+inline constexpr int kMostDirect = 15;
+inline constexpr std::array<ResidualClass, kSymbols> kClasses = {{{-15, 2},
+                                                                  {-11, 2},
+                                                                  {-7, 1},
+                                                                  {-5, 1},
+                                                                  {-3, 0},
+                                                                  {-2, 0},
+                                                                  {-1, 0},
+                                                                  {0, 0},
+                                                                  {1, 0},
+                                                                  {2, 0},
+                                                                  {3, 0},
+                                                                  {4, 1},
+                                                                  {6, 1},
+                                                                  {8, 2},
+                                                                  {12, 2},
+                                                                  {16, 0}}};
 
-/// With large residuals the lowest classes are one: all magnitudes below 2^shift. Level as in Expectation.
-constexpr int shiftOf(int level) { return level < 28 ? 0 : (level - 24) >> 2; }
+/// Where a residual is expected: in half octaves of its size, each for four fractions of the prediction, and a last
+/// cell for all that is larger, where fractions do not count and residuals are scaled.
+inline constexpr uint32_t kHalfOctaves = 12, kFractions = 4, kCells = kHalfOctaves * kFractions + 1;
 
-/// Expected sizes of residuals, in steps of half an octave (half a level).
-inline constexpr uint32_t kScales = 32;
-
-/// What is expected before anything was seen: sizes m or larger have the probability (4 s / (4 s + m - 1/2))^4, s being
-/// the expected size.
-TUTTE_TABLE std::array<Distribution, kScales> kPriors = madeTable([] {
-  std::array<Distribution, kScales> priors{};
-  uint64_t power = 84990;  // 2^((2 scale + 3/2) / 4), in 1/65536
-  for (uint32_t scale = 0; scale < kScales; ++scale) {
-    const uint64_t size = (power * 102 - 65536 * 51) >> 16;  // in 1/256
-    const int shift = shiftOf(static_cast<int>(2 * scale));
-    uint32_t last = 32768;
-    for (int i = 0; i < kSymbols - 1; ++i) {
-      const int least_class = i + 1 + (shift == 0 ? 0 : 2 * shift - 1);
-      const uint64_t least = least_class < 2 ? static_cast<uint64_t>(least_class)
-                                             : (uint64_t{2} + (least_class & 1)) << (least_class / 2 - 1);
-      const uint64_t ratio = (4 * size << 16) / (4 * size + 256 * least - 128);
+/// What is expected before anything was seen: residuals beyond m have the probability (4 s / (4 s + m))^4 / 2 on either
+/// side, s being the expected size.
+TUTTE_TABLE std::array<Distribution, kCells> kPriors = madeTable([] {
+  std::array<Distribution, kCells> priors{};
+  uint64_t power = 84990;  // 2^((2 h + 3/2) / 4), in 1/65536, for half octave h
+  for (uint32_t cell = 0; cell < kCells; ++cell) {
+    if (cell > 0 && cell % kFractions == 0) power = power * 92682 >> 16;
+    uint64_t size = (power * 102 - 65536 * 51) >> 16;  // in 1/256
+    if (cell == kCells - 1) size >>= 1;
+    // In 1/8; the fractions are from -1/2 to 1/2.
+    const int fraction = cell == kCells - 1 ? 0 : 2 * static_cast<int>(cell % kFractions) - 3;
+    const auto beyond = [&](int limit) {
+      const uint64_t ratio = (4 * size << 16) / (4 * size + 32 * static_cast<uint64_t>(limit < 0 ? -limit : limit));
       const uint64_t square = ratio * ratio >> 16;
-      const auto above = static_cast<uint32_t>(square * square >> 17);
+      const auto tail = static_cast<int>(square * square >> 18);
+      return limit < 0 ? 32768 - tail : tail;
+    };
+    const int outside = 32768 - beyond(-8 * kMostDirect - 4 - fraction);
+    int last = 32768;
+    for (int i = 0; i < kSymbols - 1; ++i) {
+      const int most = kClasses[i + 1].least - 1;
       // Every symbol keeps a little.
-      last = std::max(std::min(above, last - 3), 3u * static_cast<uint32_t>(kSymbols - 1 - i));
-      priors[scale].above[i] = static_cast<uint16_t>(last);
+      last = std::max(std::min(beyond(8 * most + 4 - fraction) + outside, last - 3), 3 * (kSymbols - 1 - i));
+      priors[cell].above[i] = static_cast<uint16_t>(last);
     }
-    power = power * 92682 >> 16;
   }
   return priors;
 });
 
-/// One context (`two` false) or two. Few habits, because small meshes visit each of them seldom.
+/// Few habits, because small meshes visit each of them seldom.
 class ClassCoder {
  public:
-  explicit ClassCoder(bool two)
-      : two_(two),
-        firsts_(kScales * kRows, [](uint32_t i) { return kPriors[i / kRows]; }),
-        seconds_(two ? kSeconds : 0, [](uint32_t i) { return kPriors[i % 16 * 2]; }) {}
+  ClassCoder()
+      : firsts_(kCells * kRows, [](uint32_t i) { return kPriors[i / kRows]; }),
+        seconds_(kCoarseCells * kColumns, [](uint32_t i) {
+          const uint32_t cell = i / kColumns;
+          return kPriors[cell == kCoarseCells - 1 ? kCells - 1
+                                                  : cell / kFractions * kFractions * kCoarse + cell % kFractions];
+        }) {}
 
   template <class Port>
-  [[gnu::always_inline]] int64_t code(Port& port, const Expectation& about, int64_t residual) {
-    const auto magnitude = static_cast<uint32_t>(residual < 0 ? -residual : residual);
-    const int level = about.level(), shift = shiftOf(level);
-    const int first = shift == 0 ? 0 : 2 * shift - 1;
-    const int value_class = std::max(classOf(magnitude) - first, 0);
-    int symbol = codeSymbol(port, about, level, std::min(value_class, kSymbols - 1));
-    if (symbol == kSymbols - 1) {
-      while (symbol + first < kMostClass &&
-             longer_[std::min(symbol - kSymbols + 1, 7)].code(port, value_class > symbol))
-        ++symbol;
-    }
-    // The leading digits and how many follow.
-    const int coded_class = symbol == 0 ? 0 : symbol + first;
-    const int rest = symbol == 0 ? shift : std::max((coded_class >> 1) - 1, 0);
-    const auto leading = static_cast<uint32_t>(symbol == 0 ? 0 : coded_class - 2 * rest);
-    const uint32_t decoded = leading << rest | port.bits(rest, magnitude & ((1u << rest) - 1));
-    if (decoded == 0) return 0;
-    Chance& sign = signs_[static_cast<size_t>((about.sign * 3 + about.rank) * 4 + std::min(symbol, 3))];
-    const bool negative = sign.code(port, residual < 0);
-    return negative ? -int64_t{decoded} : int64_t{decoded};
+  [[gnu::always_inline]] int32_t code(Port& port, const Expectation& about, int32_t residual) {
+    const uint32_t size = Expectation::half(about.estimate) + 4;
+    const int log = floorLog(size), shift = std::max(log - 7, 0);
+    // Upwards is where the residual is likelier to be.
+    const int32_t fraction = static_cast<int32_t>((about.fraction + 8) & 15) - 8;
+    const int32_t down = (about.side != 0 ? about.side : fraction) >> 31;
+    const auto part = std::min(static_cast<uint32_t>(((fraction ^ down) - down + 8) >> 2), kFractions - 1);
+    const auto octave = static_cast<uint32_t>(2 * log - 4) + (size >> (log - 1) & 1);
+    const bool scaled = shift > 0;
+    const uint32_t cell = scaled ? kCells - 1 : octave * kFractions + part;
+    const uint32_t coarse = scaled ? kCoarseCells - 1 : octave / kCoarse * kFractions + part;
+    const uint32_t first = (cell * 3 + static_cast<uint32_t>(about.rank)) * 4 + about.members;
+    const uint32_t second =
+        (coarse * kSpreads + lengthOf(about.spread, shift, kSpreads)) * kNears + lengthOf(about.near, shift, kNears);
+    const int32_t turned = (residual ^ down) - down;
+    const int32_t half = (1 << shift) >> 1;
+    int symbol = 0;
+    if constexpr (Port::kWriting) symbol = classOf((turned + half) >> shift);
+    symbol = port.symbol(Parts(firsts_[first], seconds_[second]), symbol);
+    firsts_.learn(first, symbol);
+    seconds_.learn(second, symbol);
+    if (symbol == kSymbols - 1) [[unlikely]]
+      return ((codeOutside(port, turned + half, shift) - half) ^ down) - down;
+    const ResidualClass found = kClasses[static_cast<size_t>(symbol)];
+    const int32_t least = found.least * (1 << shift) - half;
+    const uint32_t digits = port.bits(found.digits + shift, static_cast<uint32_t>(turned - least));
+    return ((least + static_cast<int32_t>(digits)) ^ down) - down;
   }
 
  private:
-  static constexpr uint32_t kRows = 12, kSeconds = 15 * 6 * 16;
-  static constexpr int kMostClass = 59;  // of residuals below 2^30
+  static constexpr uint32_t kRows = 12, kCoarse = 4, kCoarseCells = kHalfOctaves / kCoarse * kFractions + 1;
+  static constexpr uint32_t kSpreads = 9, kNears = 5, kColumns = kSpreads * kNears;
+  static constexpr int kLongest = 28;  // of residuals, in binary digits
 
-  template <class Port>
-  int codeSymbol(Port& port, const Expectation& about, int level, int symbol) {
-    const auto scale = static_cast<uint32_t>(level);
-    const uint32_t first = (scale / 2 * 3 + static_cast<uint32_t>(about.rank)) * 4 + about.members;
-    if (!two_) {
-      symbol = port.symbol(firsts_[first], symbol);
-    } else {
-      const uint32_t second =
-          (about.relative(about.spread, level, -7, 7) * 6 + about.relative(about.near, level, -3, 2)) * 16 + scale / 4;
-      Distribution both;
-      blend(firsts_[first], seconds_[second], 32767, both);
-      symbol = port.symbol(both, symbol);
-      seconds_.learn(second, symbol);
-    }
-    firsts_.learn(first, symbol);
+  static int floorLog(uint32_t x) { return 31 ^ __builtin_clz(x); }
+
+  static uint32_t lengthOf(int32_t size, int shift, uint32_t count) {
+    return std::min(static_cast<uint32_t>(floorLog((Expectation::half(size) >> shift) + 4) - 2), count - 1);
+  }
+
+  static int classOf(int32_t scaled) {
+    if (scaled < -kMostDirect || scaled > kMostDirect) return kSymbols - 1;
+    int symbol = 0;
+    while (kClasses[static_cast<size_t>(symbol) + 1].least <= scaled) ++symbol;
     return symbol;
   }
 
-  const bool two_;
+  // Farther than the classes go: to which side, and how far in its number of digits and these.
+  template <class Port>
+  [[gnu::noinline]] int32_t codeOutside(Port& port, int32_t residual, int shift) {
+    const bool below = below_.code(port, residual < 0);
+    const int32_t nearest = (below ? -kMostDirect : kMostDirect + 1) * (1 << shift) - below;
+    const auto far = static_cast<uint32_t>(below ? nearest - residual : residual - nearest);
+    const uint32_t number = (far >> shift) + 1;
+    int length = 0;
+    while (length < kLongest - shift &&
+           longer_[static_cast<size_t>(std::min(length, 7))].code(port, number >> length > 1))
+      ++length;
+    const uint32_t top = 1u << length;
+    const uint32_t whole = (top | port.bits(length, number & (top - 1))) - 1;
+    const auto decoded = static_cast<int32_t>(whole << shift | port.bits(shift, far & ((1u << shift) - 1)));
+    return below ? nearest - decoded : nearest + decoded;
+  }
+
   Habits firsts_, seconds_;
-  std::array<Chance, kSigns * 3 * 4> signs_;
+  Chance below_;
   std::array<Chance, 8> longer_;
 };
 

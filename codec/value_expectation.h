@@ -8,8 +8,6 @@
 
 namespace tutte::values {
 
-inline constexpr int kSigns = 8 * 3;
-
 /// What is known about a residual before it is coded. Sizes are in 1/16 and not negative.
 struct Expectation {
   int32_t estimate = 0;   ///< its size
@@ -23,7 +21,7 @@ struct Expectation {
   uint32_t source = 0;    ///< 0 within a polygon, 1 across an edge, 2 neither
   uint32_t fraction = 0;  ///< the last four digits of the prediction
   int rank = 0;           ///< which component of its site it is, at most 2
-  int sign = 0;           ///< what speaks for a sign, below kSigns
+  int32_t side = 0;       ///< below 0, the value is likelier below the prediction; above 0, above; 0: not known
 
   /// Of the estimate, four steps per doubling, below 64.
   int level() const { return std::min(quarterLog(half(estimate)), 63); }

@@ -24,16 +24,16 @@ class MixingCoder {
   }
 
   template <class Port>
-  int64_t code(Port& port, const Expectation& about, int64_t residual) {
-    const auto magnitude = static_cast<uint64_t>(residual < 0 ? -residual : residual);
+  [[gnu::noinline]] int32_t code(Port& port, const Expectation& about, int32_t residual) {
+    const auto magnitude = static_cast<uint32_t>(residual < 0 ? -residual : residual);
     const int expected = std::min(bitLength(static_cast<uint32_t>(about.estimate * 3 >> 6)), kLongest);
     const int length = codeLength(port, about, expected, static_cast<int>(std::bit_width(magnitude)));
     last_[static_cast<size_t>(about.rank)] = static_cast<uint32_t>(std::min(length, 15));
     if (length == 0) return 0;
-    Chance& sign = signs_[static_cast<size_t>((about.sign * 3 + about.rank) * 3 + std::min(length, 3) - 1)];
+    Chance& sign = signs_[static_cast<size_t>((signContext(about) * 3 + about.rank) * 3 + std::min(length, 3) - 1)];
     const bool negative = sign.code(port, residual < 0);
     const int digits = about.rank * 8 + std::clamp(length - expected, -3, 4) + 3;
-    const auto decoded = static_cast<int64_t>(codeDigits(port, digits, length, magnitude));
+    const auto decoded = static_cast<int32_t>(codeDigits(port, digits, length, magnitude));
     return negative ? -decoded : decoded;
   }
 
@@ -55,6 +55,11 @@ class MixingCoder {
     for (size_t i = 0; i < kInputs; ++i) starts[i + 1] = starts[i] + kCounts[i];
     return starts;
   }();
+
+  static constexpr int kSigns = 8 * 3;
+  static int signContext(const Expectation& about) {
+    return static_cast<int>(about.fraction >> 1) * 3 + (about.side > 0) - (about.side < 0) + 1;
+  }
 
   using Line = std::array<Slot, kBins>;
 
@@ -113,20 +118,19 @@ class MixingCoder {
 
   // The two digits below the leading one are adaptive, the others plain.
   template <class Port>
-  uint64_t codeDigits(Port& port, int context, int length, uint64_t magnitude) {
-    uint64_t value = 1;
+  uint32_t codeDigits(Port& port, int context, int length, uint32_t magnitude) {
+    uint32_t value = 1;
     int rest = length - 1;
     if (rest > 0) {
       --rest;
-      value = value << 1 | static_cast<uint64_t>(digits_[context].code(port, magnitude >> rest & 1));
+      value = value << 1 | static_cast<uint32_t>(digits_[context].code(port, magnitude >> rest & 1));
     }
     if (rest > 0) {
       --rest;
-      value = value << 1 | static_cast<uint64_t>(seconds_[context * 2 + (value & 1)].code(port, magnitude >> rest & 1));
+      value = value << 1 | static_cast<uint32_t>(seconds_[context * 2 + (value & 1)].code(port, magnitude >> rest & 1));
     }
     if (rest == 0) return value;
-    const uint64_t mask = (uint64_t{1} << rest) - 1;
-    return value << rest | port.bits(rest, static_cast<uint32_t>(magnitude & mask));
+    return value << rest | port.bits(rest, magnitude & ((1u << rest) - 1));
   }
 
   std::vector<Line> lines_;

@@ -19,15 +19,17 @@
 
 namespace tutte::values {
 
-/// Up to `C` components in numbers of type `T` (value_nodes.h). Values lie in [0, max]. With `tangent`, three
-/// components are points of a surface, and the third is corrected towards its tangent plane. With `echoes`, values may
-/// come again (value_echoes.h), and with `copies`, components follow their originals (value_copies.h).
+/// Up to `C` components in numbers of type `T` (value_nodes.h). Values lie in [0, max]. With `points`,
+/// three components are points of a surface; with `tangent`, too, the third is corrected towards its tangent plane.
+/// With `echoes`, values may come again (value_echoes.h), and with `copies`, components follow their originals
+/// (value_copies.h).
 template <class Port, int C, class T, class Guide>
 class SitePredictor {
  public:
   struct Options {
     int components;
     int32_t max;
+    bool points;
     bool tangent;
     bool echoes;
     bool copies;
@@ -43,9 +45,9 @@ class SitePredictor {
         residuals_(residuals),
         count_(options.components),
         max_(options.max),
-        tangent_(options.tangent) {
+        tangent_(options.points && options.tangent) {
     if (options.echoes) echoes_.emplace(graph, nodes_, count_);
-    if (options.copies) copies_.emplace(graph, nodes_, tangent_);
+    if (options.copies) copies_.emplace(graph, nodes_, options.points);
     picks_.fill(Chance(6160));
   }
 
@@ -110,7 +112,7 @@ class SitePredictor {
       near_error_[i] = static_cast<int32_t>(stencil_.error_sum[i] * reciprocal >> 16);
       sum += near_error_[i];
     }
-    all_error_ = static_cast<int32_t>(width() == 3 ? sum * 21845 >> 16 : sum / width());
+    all_error_ = static_cast<int32_t>(perComponent(sum));
     if (count == 1) all_error_ = (all_error_ + typical_error_) >> 1;
   }
 
@@ -123,6 +125,9 @@ class SitePredictor {
   // One parallelogram instead of the average: explicit, where there are several.
   void pick() {
     picked_ = false;
+    const bool several = stencil_.member_count > 1;
+    spread_share_ = several ? 4 : stencil_.member_count;
+    spread_limit_ = several ? kMostSpread : 0;
     members_context_ = static_cast<uint32_t>(std::min(stencil_.member_count, 3));
     if (stencil_.member_count < 2) return;
     T spread = 0;
@@ -169,41 +174,40 @@ class SitePredictor {
     if constexpr (C == 4) plane_.turn(stencil_.normal);
     Values raw{};
     int32_t so_far = 0;
-    for (int place = 0; place < width(); ++place) codeComponent(place, raw, so_far);
+    for (size_t place = 0; place < static_cast<size_t>(width()); ++place) codeComponent(place, raw, so_far);
   }
 
-  [[gnu::always_inline]] void codeComponent(int place, Values& raw, int32_t& so_far) {
-    const int i = plane_.component(place);
-    const uint32_t situation = source() * 2 + (stencil_.member_count > 1);
+  [[gnu::always_inline]] void codeComponent(size_t place, Values& raw, int32_t& so_far) {
+    const size_t i = plane_.component(place);
     T prediction = stencil_.base[i];
-    int64_t correction = 0;
     const bool corrected = place == 2 && plane_.bent();
     if (corrected) {
-      correction = plane_.correction(raw);
-      prediction += static_cast<T>(plane_.believed(correction, all_error_, situation));
+      prediction += static_cast<T>(plane_.correction(raw, all_error_, source() * 2 + (stencil_.member_count > 1)));
     }
-    const T rounded = std::clamp<T>((prediction + 8) >> kFraction, 0, max_);
-    T coded = rounded + static_cast<T>(residuals_.code(port_, expect(i, std::min(place, 2), so_far, prediction),
-                                                       wanted_[i] - rounded));
-    if (coded < 0 || coded > max_) {
+    const auto rounded = static_cast<int32_t>(std::clamp<T>((prediction + 8) >> kFraction, 0, max_));
+    int32_t coded =
+        rounded + residuals_.code(
+                      port_,
+                      [&] { return expect(i, static_cast<int>(std::min<size_t>(place, 2)), so_far, prediction); },
+                      wanted_[i] - rounded);
+    if (coded < 0 || coded > max_) [[unlikely]] {
       damaged_ = true;
-      coded = std::clamp<T>(coded, 0, max_);
+      coded = std::clamp(coded, 0, static_cast<int32_t>(max_));
     }
-    wanted_[i] = static_cast<int32_t>(coded);
-    raw[i] = coded * kOne - stencil_.base[i];
-    const T off = coded * kOne - prediction;
+    wanted_[i] = coded;
+    raw[i] = T{coded} * kOne - stencil_.base[i];
+    const T off = T{coded} * kOne - prediction;
     errors_[i] = static_cast<int32_t>(std::min<T>(off < 0 ? -off : off, kLargestError));
     so_far += errors_[i];
-    if (corrected) plane_.learn(raw[i], correction, all_error_, situation);
+    if (corrected) plane_.learn(raw[i]);
   }
 
   uint32_t source() const { return parallelograms() ? stencil_.source == Source::kWithin ? 0 : 1 : 2; }
 
-  Expectation expect(int i, int rank, int32_t so_far, T prediction) const {
+  [[gnu::always_inline]] Expectation expect(size_t i, int rank, int32_t so_far, T prediction) const {
     Expectation about;
-    const int32_t near = near_error_[i], all = all_error_;
-    about.near = near;
-    about.all = all;
+    about.near = near_error_[i];
+    about.all = all_error_;
     about.so_far = so_far;
     about.spread = static_cast<int32_t>(std::min<T>(stencil_.spread[i], kWidest));
     about.widest = static_cast<int32_t>(std::min(*std::ranges::max_element(stencil_.spread), kWidest));
@@ -213,29 +217,25 @@ class SitePredictor {
     about.fraction = static_cast<uint32_t>(prediction & 15);
     const T apart = stencil_.lean[i] - prediction;
     about.apart = static_cast<int32_t>(std::min<T>(apart < 0 ? -apart : apart, kWidest));
-    const int64_t side = plane_.bent() ? plane_.normal(i) : apart;
-    about.sign = static_cast<int>(about.fraction >> 1) * 3 + (side > 0) - (side < 0) + 1;
-    int32_t estimate = width() == 1 ? near
-                       : rank == 0  ? (2 * all + near) / 3
-                       : rank == 1  ? (all + near + 2 * so_far) >> 2
-                                    : (all + near + so_far) >> 2;
-    if (stencil_.member_count > 1) {
-      estimate = (estimate + about.spread) >> 1;
-    } else if (parallelograms()) {
-      estimate = (7 * estimate + std::min(about.spread, 2 * estimate)) >> 3;
-    }
-    about.estimate = picked_ ? estimate >> 1 : estimate;
+    about.side = plane_.bent() ? plane_.normal(i) : static_cast<int32_t>(std::clamp<T>(apart, -1, 1));
+    // Nothing is decided, because how many parallelograms there are is hard to foresee.
+    const int32_t around = (about.all + about.near + (so_far << (rank == 1))) >> (rank == 0 ? 1 : 2);
+    const int32_t spread = std::min(about.spread, 2 * around | spread_limit_);
+    about.estimate = (around * (8 - spread_share_) + spread * spread_share_) >> (picked_ ? 4 : 3);
     return about;
   }
 
   void adaptTypicalError() {
     int64_t sum = 0;
     for (int i = 0; i < width(); ++i) sum += errors_[i];
-    const int64_t now = std::min<int64_t>(sum / width(), 4 * int64_t{typical_error_});
+    const int64_t now = std::min<int64_t>(perComponent(sum), 4 * int64_t{typical_error_});
     typical_error_ = static_cast<int32_t>(std::max<int64_t>(typical_error_ + ((now - typical_error_) >> 5), 16));
   }
 
+  int64_t perComponent(int64_t sum) const { return width() == 3 ? sum * 21845 >> 16 : sum / width(); }
+
   static constexpr T kWidest = 1 << 25;
+  static constexpr int32_t kMostSpread = (1 << 26) - 1;
   static uint32_t small(int64_t x) { return static_cast<uint32_t>(std::min<int64_t>(x, 0x7FFFFFF0)); }
 
   Port& port_;
@@ -261,6 +261,7 @@ class SitePredictor {
   Vec<C, int32_t> wanted_{}, near_error_{}, errors_{};  // `wanted_` is the value
   int32_t all_error_ = 0;
   uint32_t members_context_ = 0;
+  int32_t spread_share_ = 0, spread_limit_ = 0;  // how much spreads count, in eighths; 0 or kMostSpread
   bool picked_ = false;
 };
 

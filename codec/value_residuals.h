@@ -10,20 +10,20 @@
 
 namespace tutte::values {
 
-/// One text and one copy for values of all kinds and numbers of components.
 class Residuals {
  public:
-  /// `mixing`: the smallest profile; otherwise by classes, with one or two contexts.
-  Residuals(bool mixing, bool two_contexts) {
+  /// `mixing`: the smallest profile; otherwise by classes.
+  explicit Residuals(bool mixing) {
     if (mixing)
       mixing_.emplace();
     else
-      classes_.emplace(two_contexts);
+      classes_.emplace();
   }
 
-  template <class Port>
-  [[gnu::noinline]] int64_t code(Port& port, const Expectation& about, int64_t residual) {
-    return classes_ ? classes_->code(port, about, residual) : mixing_->code(port, about, residual);
+  /// `expect()` gives an Expectation; what is not asked of it need not be computed.
+  template <class Port, class Expect>
+  [[gnu::always_inline]] int32_t code(Port& port, Expect expect, int32_t residual) {
+    return classes_ ? classes_->code(port, expect(), residual) : mixing_->code(port, expect(), residual);
   }
 
  private:

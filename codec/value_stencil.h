@@ -33,7 +33,7 @@ class Stencil {
     settle(around, last);
   }
 
-  static constexpr int kMostMembers = 8;
+  static constexpr int kMostMembers = 4;
 
   /// Replaces what was gathered by better predictions: their average and all of them.
   void adopt(Source from, const Values& average, std::span<const Values> predictions) {
@@ -134,27 +134,21 @@ class Stencil {
     }
   }
 
-  static Values average(const Values& sum, size_t count) {
-    Values result;
-    for (int i = 0; i < kWidth; ++i) result[i] = static_cast<T>(mean(int64_t{sum[i]}, static_cast<uint32_t>(count)));
-    return result;
-  }
-
   // Fills in base and spread from the best source.
   void settle(const Surroundings& around, const Vec<C, int32_t>& last) {
-    if (member_count == 1) base = members[0];
-    if (member_count == 2) {
-      for (int i = 0; i < kWidth; ++i) base[i] = (members[0][i] + members[1][i] + 1) >> 1;
-    }
-    if (member_count > 2) {
-      Values sum = members[0];
-      for (int m = 1; m < member_count; ++m) {
-        for (int i = 0; i < kWidth; ++i) sum[i] += members[m][i];
-      }
-      base = average(sum, static_cast<size_t>(member_count));
-    }
-    if (member_count > 0) lean = base;
+    if (member_count > 0) averageMembers();
     member_count > 1 ? spreadOfMembers() : settleFromAfar(around, last);
+  }
+
+  // Of three, the last one counts twice.
+  void averageMembers() {
+    base = members[0];
+    for (int i = 0; i < kWidth && member_count == 2; ++i) base[i] = (base[i] + members[1][i] + 1) >> 1;
+    if (member_count > 2) {
+      const Values& last = members[member_count - 1];
+      for (int i = 0; i < kWidth; ++i) base[i] = (base[i] + members[1][i] + members[2][i] + last[i] + 2) >> 2;
+    }
+    lean = base;
   }
 
   void spreadOfMembers() {
@@ -210,7 +204,8 @@ class Stencil {
         sum[i] += term.y == 1 ? (2 * side + a[i] + b[i]) * (kOne / 2) : (side + b[i]) * kOne;
       }
     }
-    return average(sum, terms.size());
+    for (T& x : sum) x = static_cast<T>(mean(int64_t{x}, static_cast<uint32_t>(terms.size())));
+    return sum;
   }
 
   const Nodes<C>& nodes_;

@@ -44,10 +44,11 @@ struct Run {
 
   template <int C, class T, class Guide>
   Error code() {
-    values::Residuals residuals(format.profile == ValueProfile::kSmall, format.profile == ValueProfile::kDefault);
+    const bool points = format.kind == ValueKind::kPoints, fast = format.profile == ValueProfile::kFast;
+    values::Residuals residuals(format.profile == ValueProfile::kSmall);
     SitePredictor<Port, C, T, Guide> predictor(
-        port, sites.graph, sites.places,
-        {format.components, format.max, format.kind == ValueKind::kPoints, format.echoes, format.copies}, residuals);
+        port, sites.graph, sites.places, {format.components, format.max, points, !fast, format.echoes, format.copies},
+        residuals);
     const Error error = everySite([&] { predictor.code(values); });
     if (error != Error::kNone) return error;
     return predictor.damaged() ? Error::kMalformed : Error::kNone;

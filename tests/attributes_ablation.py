@@ -12,8 +12,8 @@ from pathlib import Path
 
 FOLDERS = ('polygon', 'paper-polygon', 'paper-triangle', 'triangle')
 CODERS = (("Draco's classes over our connectivity", ['--attribute-coder', 'draco']),
-          ('one context (`fast`)', ['--attribute-coder', 'tutte', '--profile', 'fast']),
-          ('two contexts, blended (`default`)', ['--attribute-coder', 'tutte', '--profile', 'default']),
+          ('classes, without tangent planes (`fast`)', ['--attribute-coder', 'tutte', '--profile', 'fast']),
+          ('classes, two contexts (`default`)', ['--attribute-coder', 'tutte', '--profile', 'default']),
           ('eight contexts, mixed (`small`)', ['--attribute-coder', 'tutte', '--profile', 'small']),
           ('the choice of `encode`', []))
 

@@ -93,7 +93,7 @@ class Textures:
                 around.spread = [abs(x) for x in minus(self.given_base, self.here_base)]
 
     def develop(self, site, start, end):
-        if len(self.members) == 8:
+        if len(self.members) == 4:
             return
         at = [self.places[3 * s:3 * s + 3] for s in (start, end, site)]
         edge, leg = minus(at[1], at[0]), minus(at[2], at[0])

@@ -33,30 +33,27 @@ class ValueStream:
     def __init__(self, data, at):
         size, at = varint(data, at)
         require(at + size <= len(data), 'the decisions end too early')
-        self.decisions, self.rest = data[at:at + size], data[at + size:]
-        self.range, self.taken, self.plain_taken = 65535, 16, 0
-        self.number = int.from_bytes(self.decisions[:2].ljust(2, b'\0'), 'big')
+        head = size if size < 8 else size % 4 + 4 if size % 4 else 8
+        self.state = int.from_bytes(data[at:at + head], 'big')
+        self.words = [int.from_bytes(data[k:k + 4], 'big') for k in range(at + head, at + size, 4)]
+        self.words.reverse()
+        self.rest, self.plain_taken = data[at + size:], 0
 
-    def take(self, start, size):
-        self.number -= start
-        self.range = size
-        while self.range < 32768:
-            self.range *= 2
-            byte = self.decisions[self.taken // 8] if self.taken // 8 < len(self.decisions) else 0
-            self.number = self.number << 1 | byte >> (7 - self.taken % 8) & 1
-            self.taken += 1
-        require(self.taken <= 8 * len(self.decisions) + 64, 'the decisions end too early')
+    def take(self, begin, size):
+        self.state = size * (self.state >> 16) + self.state % 65536 - begin
+        if self.state < 2**31 and self.words:
+            self.state = self.state << 32 | self.words.pop()
 
     def bit(self, p):
-        split = self.range * p >> 16
-        one = self.number < split
-        self.take(0, split) if one else self.take(split, self.range - split)
+        one = self.state % 65536 < p
+        self.take(0, p) if one else self.take(p, 65536 - p)
         return int(one)
 
     def symbol(self, above):
-        ends = [self.range] + [2 * x * self.range >> 16 for x in above] + [0]
-        symbol = sum(self.number < end for end in ends[1:])
-        self.take(ends[symbol + 1], ends[symbol] - ends[symbol + 1])
+        position = self.state % 65536 >> 1
+        symbol = sum(x > position for x in above)
+        begin, end = (above + [0])[symbol], ([32768] + above)[symbol]
+        self.take(2 * begin, 2 * (end - begin))
         return symbol
 
     def plain(self, count):
@@ -69,7 +66,7 @@ class ValueStream:
         return value
 
     def finish(self):
-        require(8 * len(self.decisions) <= self.taken + 7, 'bytes are left in the decisions')
+        require(not self.words and self.state == 0, 'the decisions do not end with the state 0')
         require(8 * len(self.rest) <= self.plain_taken + 7, 'bytes are left in the plain bits')
 
 
@@ -144,24 +141,31 @@ class MixedChance:
 
 # D.4.8 Residuals
 
-def shift_of(level):
-    return 0 if level < 28 else level - 24 >> 2
+LEAST = (-15, -11, -7, -5, -3, -2, -1, 0, 1, 2, 3, 4, 6, 8, 12, 16)
+DIGITS = (2, 2, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1, 2, 2)
+
+
+def prior(power, halved, fraction):
+    size = power * 102 - 65536 * 51 >> 16 + halved
+
+    def beyond(limit):
+        ratio = (4 * size << 16) // (4 * size + 32 * abs(limit))
+        tail = (ratio * ratio >> 16) ** 2 >> 18
+        return 32768 - tail if limit < 0 else tail
+
+    outside, last, above = 32768 - beyond(-124 - fraction), 32768, []
+    for i in range(15):
+        last = max(min(beyond(8 * LEAST[i + 1] - 4 - fraction) + outside, last - 3), 3 * (15 - i))
+        above.append(last)
+    return above
 
 
 def priors():
     result, power = [], 84990
-    for scale in range(32):
-        size, shift, last, above = power * 102 - 65536 * 51 >> 16, shift_of(2 * scale), 32768, []
-        for i in range(15):
-            k = i + 1 + (2 * shift - 1 if shift else 0)
-            least = k if k < 2 else (2 + k % 2) << (k // 2 - 1)
-            ratio = (4 * size << 16) // (4 * size + 256 * least - 128)
-            square = ratio * ratio >> 16
-            last = max(min(square * square >> 17, last - 3), 3 * (15 - i))
-            above.append(last)
-        result.append(above)
+    for _ in range(12):
+        result.append([prior(power, 0, 2 * part - 3) for part in range(4)])
         power = power * 92682 >> 16
-    return result
+    return result + [[prior(power, 1, 0)] * 4]
 
 
 PRIORS = priors()
@@ -172,7 +176,7 @@ class Habit:
         self.above, self.seen = list(prior), 0
 
     def learn(self, symbol):
-        rate = 655360 // (10 * self.seen + 160)
+        rate = 65536 // (self.seen + 12)
         for i, x in enumerate(self.above):
             target = 3 * (15 - i) + (32720 if i < symbol else 0)
             self.above[i] += (target - x) * rate >> 16
@@ -180,33 +184,32 @@ class Habit:
 
 
 class Classes:
-    def __init__(self, contexts_less_one):
-        self.two = contexts_less_one == 1
-        self.first, self.second, self.signs, self.longer = {}, {}, Chances(), Chances()
+    def __init__(self):
+        self.first, self.second, self.outside = {}, {}, Chances()
 
-    def read(self, stream, level, first, second, sign):
-        habit = self.first.setdefault(first, Habit(PRIORS[first[0]]))
-        if self.two:
-            other = self.second.setdefault(second, Habit(PRIORS[2 * second[2]]))
-            symbol = stream.symbol([a + ((b - a) * 32767 >> 16) for a, b in zip(habit.above, other.above)])
-            other.learn(symbol)
+    def read(self, stream, octave, part, down, rank, members, spread, near):
+        """octave: in halves; spread, near: sizes."""
+        shift = max((octave >> 1) - 5, 0)
+        cell = min(octave, 12)
+        part = part if cell < 12 else 0
+        coarse = cell // 4
+        columns = [min(log4((size >> 1) >> shift) // 4, most) for size, most in ((spread, 8), (near, 4))]
+        first = self.first.setdefault((cell, part, rank, members), Habit(PRIORS[cell][part]))
+        second = self.second.setdefault((coarse, part, *columns), Habit(PRIORS[4 * coarse][part]))
+        symbol = stream.symbol([a + b + 1 >> 1 for a, b in zip(first.above, second.above)])
+        first.learn(symbol)
+        second.learn(symbol)
+        half = 1 << shift >> 1
+        if symbol < 15:
+            residual = (LEAST[symbol] << shift) - half + stream.plain(DIGITS[symbol] + shift)
         else:
-            symbol = stream.symbol(habit.above)
-        habit.learn(symbol)
-        shift = shift_of(level)
-        base = 2 * shift - 1 if shift else 0
-        if symbol == 0:
-            magnitude = stream.plain(shift)
-        else:
-            if symbol == 15:
-                while symbol + base < 59 and self.longer[min(symbol - 15, 7)].read(stream):
-                    symbol += 1
-            magnitude = k = symbol + base
-            if k >= 4:
-                magnitude = (2 + k % 2) << (k // 2 - 1) | stream.plain(k // 2 - 1)
-        if magnitude == 0:
-            return 0
-        return -magnitude if self.signs[sign, min(symbol, 3)].read(stream) else magnitude
+            below, length = self.outside['below'].read(stream), 0
+            while length < 28 - shift and self.outside[min(length, 7)].read(stream):
+                length += 1
+            far = (2**length + stream.plain(length) - 1) << shift
+            far += stream.plain(shift)
+            residual = (-(15 << shift) - 1 - far if below else (16 << shift) + far) - half
+        return -residual if down else residual
 
 
 class Lengths:

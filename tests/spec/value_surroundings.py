@@ -38,7 +38,7 @@ class Surroundings:
         for a, b, x, y in quads + triangles:
             normals.append((b, a, x))
         chosen = quads if self.source == WITHIN else triangles
-        self.members = (polygons + [self.parallelogram(*f) for f in chosen])[:8]
+        self.members = (polygons + [self.parallelogram(*f) for f in chosen])[:4]
         if coder.kind == POINTS:
             for origin, first, second in normals:
                 self.add_normal(values[origin], values[first], values[second])
@@ -85,7 +85,8 @@ class Surroundings:
         m, members = self.m, self.members
         self.spread = [0] * m
         if members:
-            self.base = [mean(sum(x[i] for x in members), len(members)) for i in range(m)]
+            weighed = members + members[2:] if len(members) == 3 else members
+            self.base = [mean(sum(x[i] for x in weighed), len(weighed)) for i in range(m)]
             self.lean = self.base
         if len(members) > 1:
             self.spread = [max(abs(x[i] - members[0][i]) for x in members) for i in range(m)]

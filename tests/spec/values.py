@@ -23,7 +23,7 @@ class Coder:
         self.values, self.errors, self.picked = {}, {}, {}
         self.last, self.typical = [0] * m, 64
         self.picks, self.indices, self.gains = Chances(6160), Chances(), {}
-        self.residuals = Lengths() if profile == SMALL else Classes(profile)
+        self.residuals = Lengths() if profile == SMALL else Classes()
         self.echoes = Echoes(self) if echoes else None
         self.copies = Copies(graph.mesh, graph.site, self.values, m == 3 and kind == POINTS) if copies else None
         self.guide = {TEXTURE: Textures, DIRECTION: Directions}.get(kind, lambda *_: None)(self, places)
@@ -59,7 +59,7 @@ class Coder:
             self.echoes.learn(site)
         if self.copies:
             self.copies.learn(value)
-        now = min(sum(errors) // self.m, 4 * self.typical)
+        now = min(self.per_component(sum(errors)), 4 * self.typical)
         self.typical = max(self.typical + (now - self.typical >> 5), 16)
 
     def scale(self, around):
@@ -68,9 +68,12 @@ class Coder:
         if count:
             reciprocal = (65536 + count // 2) // count
             self.near = [sum(self.errors[s][i] for s in around.neighbours) * reciprocal >> 16 for i in range(self.m)]
-            self.all = sum(self.near) * 21845 >> 16 if self.m == 3 else sum(self.near) // self.m
+            self.all = self.per_component(sum(self.near))
             if count == 1:
                 self.all = self.all + self.typical >> 1
+
+    def per_component(self, total):
+        return total * 21845 >> 16 if self.m == 3 else total // self.m
 
     def pick(self, around):
         count = len(around.members)
@@ -88,17 +91,19 @@ class Coder:
 
     def components(self, around, base, members, picked):
         order, normal = list(range(self.m)), None
-        if any(around.normal):
-            order.sort(key=lambda i: abs(around.normal[i]))
-            shift = max(bit_length(abs(around.normal[order[2]])) - 12, 0)
-            normal = [x >> shift for x in around.normal]
+        if any(around.normal) and self.profile != FAST:
+            largest = max(range(3), key=lambda i: (abs(around.normal[i]), i))
+            order.append(order.pop(largest))
+            shift = bit_length(abs(around.normal[largest])) - 12
+            normal = [x >> shift if shift > 0 else x << -shift for x in around.normal]
         value, errors, raw, so_far = [0] * self.m, [0] * self.m, [0] * self.m, 0
         for rank, i in enumerate(order):
             prediction, gain = base[i], None
             if rank == 2 and normal:
                 s = min(around.source, 2) if around.members else 2
                 gain = (min(bit_length(self.all), 15), s, len(around.members) > 1)
-                correction = cut(-(normal[order[0]] * raw[order[0]] + normal[order[1]] * raw[order[1]]), normal[i])
+                inverse = cut(2**24, normal[i])
+                correction = -sum(normal[k] * raw[k] for k in order[:2]) * inverse >> 24
                 prediction += self.gains.setdefault(gain, 2048) * correction >> 12
             rounded = clamp(prediction + 8 >> 4, 0, self.max)
             side = normal[i] if normal else around.lean[i] - prediction
@@ -116,14 +121,13 @@ class Coder:
         if abs(off) > limit or abs(correction) > limit:
             return
         error = off - (self.gains[gain] * correction >> 12)
-        shift = 2 * bit_length(self.all) - 6
-        step = error * correction >> shift if shift >= 0 else error * correction << -shift
+        step = error * correction * 64 >> 2 * bit_length(self.all)
         self.gains[gain] = clamp(self.gains[gain] + clamp(step, -512, 512), -512, 4608)
 
     def residual(self, around, i, rank, so_far, prediction, side, base, members, picked):
         near, count = self.near[i], len(around.members)
         spread = min(around.spread[i], 2**25)
-        estimate = (near if self.m == 1 else (2 * self.all + near) // 3 if rank == 0 else
+        estimate = (self.all + near >> 1 if rank == 0 else
                     self.all + near + (2 if rank == 1 else 1) * so_far >> 2)
         if count > 1:
             estimate = estimate + spread >> 1
@@ -131,15 +135,17 @@ class Coder:
             estimate = 7 * estimate + min(spread, 2 * estimate) >> 3
         if picked:
             estimate >>= 1
-        level = min(log4(estimate >> 1), 63)
-        sign = ((prediction & 15) >> 1, (side > 0) - (side < 0), rank)
+        level = log4(estimate >> 1)
+        if self.profile != SMALL:
+            fraction = (prediction + 8 & 15) - 8
+            down = side < 0 or side == 0 and fraction < 0
+            part = min((-fraction if down else fraction) + 8 >> 2, 3)
+            return self.residuals.read(self.stream, level // 2, part, down, rank, members, spread, near)
+        level, sign = min(level, 63), ((prediction & 15) >> 1, (side > 0) - (side < 0), rank)
 
         def relative(size, low, high):
             return clamp(log4(size >> 1) - level >> 1, low, high)
 
-        if self.profile != SMALL:
-            second = relative(spread, -7, 7), relative(near, -3, 2), level // 4
-            return self.residuals.read(self.stream, level, (level // 2, rank, members), second, sign)
         def relative16(size):
             return relative(min(size, 2**25), -7, 8)
 
