@@ -27,7 +27,7 @@ class Habits {
 
   const Distribution& operator[](uint32_t habit) const { return distributions_[habit]; }
 
-  void learn(uint32_t habit, int symbol) {
+  [[gnu::always_inline]] void learn(uint32_t habit, int symbol) {
     uint8_t& seen = seen_[habit];
     approach(distributions_[habit], kTargets[static_cast<size_t>(symbol)], kRates[seen]);
     seen = static_cast<uint8_t>(seen + (seen < kLimit));
@@ -119,6 +119,8 @@ TUTTE_TABLE std::array<Distribution, kCells> kPriors = madeTable([] {
 /// Few habits, because small meshes visit each of them seldom.
 class ClassCoder {
  public:
+  static constexpr bool kWantsAll = false;
+
   ClassCoder()
       : firsts_(kCells * kRows, [](uint32_t i) { return kPriors[i / kRows]; }),
         seconds_(kCoarseCells * kColumns, [](uint32_t i) {

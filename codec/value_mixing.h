@@ -17,6 +17,8 @@ namespace tutte::values {
 /// Codes residuals by their bit length (a walk up or down from the expected one, by mixed contexts), sign and digits.
 class MixingCoder {
  public:
+  static constexpr bool kWantsAll = true;
+
   MixingCoder() : lines_(kStarts[kInputs]) {
     Weights<kInputs> initial;
     initial.weight.fill(kInitialWeight);

@@ -14,6 +14,14 @@ namespace tutte::values {
 template <int C, class T>
 using Vec = std::array<T, C>;
 
+/// The vector of f(i). Its numbers are stored after all others have been read, so that compilers see one operation.
+template <int C, class T, class F>
+[[gnu::always_inline]] inline Vec<C, T> eachOf(F f) {
+  Vec<C, T> result;
+  for (size_t i = 0; i < static_cast<size_t>(C); ++i) result[i] = f(i);
+  return result;
+}
+
 /// A site whose value is known.
 template <int C>
 struct alignas(C == 4 ? 16 : 8) Node {

@@ -78,6 +78,7 @@ class SitePredictor {
 
  private:
   using Values = Vec<C, T>;
+  static constexpr size_t kLanes = C;  // those that are not used stay 0
   static constexpr T kOne = 1 << kFraction;
 
   bool parallelograms() const { return stencil_.member_count > 0; }
@@ -108,7 +109,7 @@ class SitePredictor {
     }
     const int64_t reciprocal = kReciprocal[count];
     int64_t sum = 0;
-    for (int i = 0; i < width(); ++i) {
+    for (size_t i = 0; i < kLanes; ++i) {
       near_error_[i] = static_cast<int32_t>(stencil_.error_sum[i] * reciprocal >> 16);
       sum += near_error_[i];
     }
@@ -128,10 +129,11 @@ class SitePredictor {
     const bool several = stencil_.member_count > 1;
     spread_share_ = several ? 4 : stencil_.member_count;
     spread_limit_ = several ? kMostSpread : 0;
+    estimate_shift_ = 3;
     members_context_ = static_cast<uint32_t>(std::min(stencil_.member_count, 3));
     if (stencil_.member_count < 2) return;
     T spread = 0;
-    for (int i = 0; i < width(); ++i) spread += stencil_.spread[i];
+    for (size_t i = 0; i < kLanes; ++i) spread += stencil_.spread[i];
     const int level = std::min(quarterLog(small(spread)) / 4, 11);
     const uint32_t count = static_cast<uint32_t>(std::min(stencil_.member_count, 4)) - 2;
     const auto around = static_cast<uint32_t>(std::min(stencil_.picked_neighbours, 3));
@@ -146,6 +148,7 @@ class SitePredictor {
     stencil_.base = stencil_.members[m];
     members_context_ = 0;
     picked_ = true;
+    estimate_shift_ = 4;
   }
 
   // 0: the average; m + 1: parallelogram m. Costs are in quarters of bits.
@@ -172,62 +175,74 @@ class SitePredictor {
 
   void codeComponents() {
     if constexpr (C == 4) plane_.turn(stencil_.normal);
-    Values raw{};
-    int32_t so_far = 0;
-    for (size_t place = 0; place < static_cast<size_t>(width()); ++place) codeComponent(place, raw, so_far);
+    residuals_.withCoder([&](auto& coder) {
+      SoFar so_far;
+      for (size_t place = 0; place < static_cast<size_t>(width()); ++place) codeComponent(coder, place, so_far);
+    });
   }
 
-  [[gnu::always_inline]] void codeComponent(size_t place, Values& raw, int32_t& so_far) {
+  /// About the components of the current site that are known.
+  struct SoFar {
+    Values raw{};  ///< how far they are from the base
+    int32_t errors = 0, weighed = 0;
+  };
+
+  template <class Coder>
+  [[gnu::always_inline]] void codeComponent(Coder& coder, size_t place, SoFar& so_far) {
     const size_t i = plane_.component(place);
     T prediction = stencil_.base[i];
     const bool corrected = place == 2 && plane_.bent();
     if (corrected) {
-      prediction += static_cast<T>(plane_.correction(raw, all_error_, source() * 2 + (stencil_.member_count > 1)));
+      const uint32_t situation = source() * 2 + (stencil_.member_count > 1);
+      prediction += static_cast<T>(plane_.correction(so_far.raw, all_error_, situation));
     }
     const auto rounded = static_cast<int32_t>(std::clamp<T>((prediction + 8) >> kFraction, 0, max_));
-    int32_t coded =
-        rounded + residuals_.code(
-                      port_,
-                      [&] { return expect(i, static_cast<int>(std::min<size_t>(place, 2)), so_far, prediction); },
-                      wanted_[i] - rounded);
-    if (coded < 0 || coded > max_) [[unlikely]] {
+    const Expectation about = expect<Coder::kWantsAll>(i, place, so_far, prediction);
+    int32_t coded = rounded + coder.code(port_, about, wanted_[i] - rounded);
+    if (static_cast<uint32_t>(coded) > static_cast<uint32_t>(max_)) [[unlikely]] {
       damaged_ = true;
       coded = std::clamp(coded, 0, static_cast<int32_t>(max_));
     }
     wanted_[i] = coded;
-    raw[i] = T{coded} * kOne - stencil_.base[i];
+    so_far.raw[i] = T{coded} * kOne - stencil_.base[i];
     const T off = T{coded} * kOne - prediction;
-    errors_[i] = static_cast<int32_t>(std::min<T>(off < 0 ? -off : off, kLargestError));
-    so_far += errors_[i];
-    if (corrected) plane_.learn(raw[i]);
+    const auto error = static_cast<int32_t>(std::min<T>(off < 0 ? -off : off, kLargestError));
+    errors_[i] = error;
+    so_far.errors += error;
+    so_far.weighed = place == 0 ? 2 * error : so_far.errors;
+    if (corrected) plane_.learn(so_far.raw[i]);
   }
 
   uint32_t source() const { return parallelograms() ? stencil_.source == Source::kWithin ? 0 : 1 : 2; }
 
-  [[gnu::always_inline]] Expectation expect(size_t i, int rank, int32_t so_far, T prediction) const {
+  template <bool kWantsAll>
+  [[gnu::always_inline]] Expectation expect(size_t i, size_t place, const SoFar& so_far, T prediction) const {
     Expectation about;
     about.near = near_error_[i];
-    about.all = all_error_;
-    about.so_far = so_far;
     about.spread = static_cast<int32_t>(std::min<T>(stencil_.spread[i], kWidest));
-    about.widest = static_cast<int32_t>(std::min(*std::ranges::max_element(stencil_.spread), kWidest));
     about.members = members_context_;
-    about.source = source();
-    about.rank = rank;
+    about.rank = static_cast<int>(std::min<size_t>(place, 2));
     about.fraction = static_cast<uint32_t>(prediction & 15);
     const T apart = stencil_.lean[i] - prediction;
-    about.apart = static_cast<int32_t>(std::min<T>(apart < 0 ? -apart : apart, kWidest));
     about.side = plane_.bent() ? plane_.normal(i) : static_cast<int32_t>(std::clamp<T>(apart, -1, 1));
     // Nothing is decided, because how many parallelograms there are is hard to foresee.
-    const int32_t around = (about.all + about.near + (so_far << (rank == 1))) >> (rank == 0 ? 1 : 2);
+    const int32_t usual = all_error_ + about.near;
+    const int32_t around = (usual + (place == 0 ? usual : so_far.weighed)) >> 2;
     const int32_t spread = std::min(about.spread, 2 * around | spread_limit_);
-    about.estimate = (around * (8 - spread_share_) + spread * spread_share_) >> (picked_ ? 4 : 3);
+    about.estimate = (around * (8 - spread_share_) + spread * spread_share_) >> estimate_shift_;
+    if constexpr (kWantsAll) {
+      about.all = all_error_;
+      about.so_far = so_far.errors;
+      about.widest = static_cast<int32_t>(std::min(*std::ranges::max_element(stencil_.spread), kWidest));
+      about.source = source();
+      about.apart = static_cast<int32_t>(std::min<T>(apart < 0 ? -apart : apart, kWidest));
+    }
     return about;
   }
 
   void adaptTypicalError() {
     int64_t sum = 0;
-    for (int i = 0; i < width(); ++i) sum += errors_[i];
+    for (size_t i = 0; i < kLanes; ++i) sum += errors_[i];
     const int64_t now = std::min<int64_t>(perComponent(sum), 4 * int64_t{typical_error_});
     typical_error_ = static_cast<int32_t>(std::max<int64_t>(typical_error_ + ((now - typical_error_) >> 5), 16));
   }
@@ -262,6 +277,7 @@ class SitePredictor {
   int32_t all_error_ = 0;
   uint32_t members_context_ = 0;
   int32_t spread_share_ = 0, spread_limit_ = 0;  // how much spreads count, in eighths; 0 or kMostSpread
+  int estimate_shift_ = 3;
   bool picked_ = false;
 };
 

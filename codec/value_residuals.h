@@ -20,10 +20,10 @@ class Residuals {
       classes_.emplace();
   }
 
-  /// `expect()` gives an Expectation; what is not asked of it need not be computed.
-  template <class Port, class Expect>
-  [[gnu::always_inline]] int32_t code(Port& port, Expect expect, int32_t residual) {
-    return classes_ ? classes_->code(port, expect(), residual) : mixing_->code(port, expect(), residual);
+  /// Calls visit(coder) with one of the coders.
+  template <class Visit>
+  [[gnu::always_inline]] void withCoder(Visit visit) {
+    classes_ ? visit(*classes_) : visit(*mixing_);
   }
 
  private:

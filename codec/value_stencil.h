@@ -64,22 +64,27 @@ class Stencil {
   std::array<int64_t, 3> normal{};  ///< of the surroundings, not of unit length; 0: unknown
 
  private:
-  static constexpr int kWidth = C;
+  static constexpr size_t kWidth = C;
   static constexpr T kOne = 1 << kFraction;
 
-  const Vec<C, int32_t>& value(Index rank) const { return nodes_[rank].value; }
+  template <class F>
+  [[gnu::always_inline]] static Values each(F f) {
+    return eachOf<C, T>(f);
+  }
+
+  const Vec<C, int32_t>& value(Index site) const { return nodes_[site].value; }
 
   void sumNeighbours(std::span<const Index> around) {
     Values errors{}, values{};
-    picked_neighbours = 0;
-    for (const Index rank : around) {
-      const Node<C>& node = nodes_[rank];
-      picked_neighbours += nodes_.picked(rank);
-      for (int i = 0; i < kWidth; ++i) {
-        errors[i] += node.error[i];
-        values[i] += node.value[i];
-      }
+    int32_t picked = 0;
+    const Nodes<C>& nodes = nodes_;
+    for (const Index site : around) {
+      const Node<C>& node = nodes[site];
+      picked += nodes.picked(site);
+      errors = each([&](size_t i) { return errors[i] + node.error[i]; });
+      values = each([&](size_t i) { return values[i] + node.value[i]; });
     }
+    picked_neighbours = picked;
     neighbours = static_cast<int32_t>(around.size());
     error_sum = errors;
     neighbour_sum_ = values;
@@ -99,18 +104,17 @@ class Stencil {
   void addParallelogram(const Term& term) {
     if (member_count == kMostMembers) return;
     const Vec<C, int32_t>&a = value(term.a), &b = value(term.b), &x = value(term.x), &y = value(term.y);
-    Values& member = members[member_count++];
-    for (int i = 0; i < kWidth; ++i) member[i] = (2 * (T{a[i]} + b[i]) - x[i] - y[i]) * (kOne / 2);
+    members[static_cast<size_t>(member_count++)] =
+        each([&](size_t i) { return (2 * (T{a[i]} + b[i]) - x[i] - y[i]) * (kOne / 2); });
   }
 
   void addScaled(const Term& term) {
     if (member_count == kMostMembers) return;
     const Vec<C, int32_t>&at = value(term.a), &to = value(term.b), &from = value(term.x);
-    Values& member = members[member_count++];
-    for (int i = 0; i < kWidth; ++i) {
+    members[static_cast<size_t>(member_count++)] = each([&](size_t i) {
       const int64_t scaled = (int64_t{to[i]} - from[i]) * static_cast<int32_t>(term.y) >> (12 - kFraction);
-      member[i] = at[i] * kOne + static_cast<T>(scaled);
-    }
+      return at[i] * kOne + static_cast<T>(scaled);
+    });
   }
 
   void sumNormals(const Surroundings& around) {
@@ -142,23 +146,28 @@ class Stencil {
 
   // Of three, the last one counts twice.
   void averageMembers() {
-    base = members[0];
-    for (int i = 0; i < kWidth && member_count == 2; ++i) base[i] = (base[i] + members[1][i] + 1) >> 1;
-    if (member_count > 2) {
-      const Values& last = members[member_count - 1];
-      for (int i = 0; i < kWidth; ++i) base[i] = (base[i] + members[1][i] + members[2][i] + last[i] + 2) >> 2;
+    const Values &first = members[0], &second = members[1];
+    if (member_count == 1) {
+      base = first;
+    } else if (member_count == 2) {
+      base = each([&](size_t i) { return (first[i] + second[i] + 1) >> 1; });
+    } else {
+      const Values &third = members[2], &last = members[static_cast<size_t>(member_count) - 1];
+      base = each([&](size_t i) { return (first[i] + second[i] + third[i] + last[i] + 2) >> 2; });
     }
     lean = base;
   }
 
   void spreadOfMembers() {
-    spread.fill(0);
-    for (int m = 1; m < member_count; ++m) {
-      for (int i = 0; i < kWidth; ++i) {
-        const T off = members[m][i] - members[0][i];
-        spread[i] = std::max(spread[i], off < 0 ? -off : off);
-      }
+    const Values& first = members[0];
+    Values most{};
+    for (size_t m = 1; m < static_cast<size_t>(member_count); ++m) {
+      most = each([&](size_t i) {
+        const T off = members[m][i] - first[i];
+        return std::max(most[i], off < 0 ? -off : off);
+      });
     }
+    spread = most;
   }
 
   // Weaker predictions: the best is the base where there is no parallelogram, the next one measures its reliability.
@@ -171,7 +180,7 @@ class Stencil {
         source = from;
         have_base = true;
       } else if (!have_spread) {
-        for (int i = 0; i < kWidth; ++i) {
+        for (size_t i = 0; i < kWidth; ++i) {
           const T off = prediction[i] - base[i];
           spread[i] = off < 0 ? -off : off;
         }
@@ -183,14 +192,14 @@ class Stencil {
     if (!around.straight.empty()) offer(Source::kStraight, meanOf(around.straight));
     if (neighbours > 0 && !have_spread) {
       Values mean_value;
-      for (int i = 0; i < kWidth; ++i) {
+      for (size_t i = 0; i < kWidth; ++i) {
         mean_value[i] = static_cast<T>(mean(int64_t{neighbour_sum_[i]} * kOne, static_cast<uint32_t>(neighbours)));
       }
       offer(Source::kNeighbours, mean_value);
     }
     if (!have_base) {
       source = Source::kLast;
-      for (int i = 0; i < kWidth; ++i) base[i] = lean[i] = last[i] * kOne;
+      for (size_t i = 0; i < kWidth; ++i) base[i] = lean[i] = last[i] * kOne;
     }
   }
 
@@ -199,7 +208,7 @@ class Stencil {
     Values sum{};
     for (const Term& term : terms) {
       const Vec<C, int32_t>&a = value(term.a), &b = value(term.b), &x = value(term.x);
-      for (int i = 0; i < kWidth; ++i) {
+      for (size_t i = 0; i < kWidth; ++i) {
         const T side = T{a[i]} - x[i];
         sum[i] += term.y == 1 ? (2 * side + a[i] + b[i]) * (kOne / 2) : (side + b[i]) * kOne;
       }
