@@ -116,6 +116,13 @@ TUTTE_TABLE std::array<Distribution, kCells> kPriors = madeTable([] {
   return priors;
 });
 
+/// All symbols are equally likely.
+TUTTE_TABLE Distribution kEvenPrior = madeTable([] {
+  Distribution prior;
+  for (size_t i = 0; i < kSymbols; ++i) prior.above[i] = static_cast<uint16_t>(2048 * (kSymbols - 1 - i));
+  return prior;
+});
+
 /// Few habits, because small meshes visit each of them seldom.
 class ClassCoder {
  public:
@@ -123,11 +130,14 @@ class ClassCoder {
 
   ClassCoder()
       : firsts_(kCells * kRows, [](uint32_t i) { return kPriors[i / kRows]; }),
-        seconds_(kCoarseCells * kColumns, [](uint32_t i) {
-          const uint32_t cell = i / kColumns;
-          return kPriors[cell == kCoarseCells - 1 ? kCells - 1
-                                                  : cell / kFractions * kFractions * kCoarse + cell % kFractions];
-        }) {}
+        seconds_(
+            kCoarseCells * kColumns,
+            [](uint32_t i) {
+              const uint32_t cell = i / kColumns;
+              return kPriors[cell == kCoarseCells - 1 ? kCells - 1
+                                                      : cell / kFractions * kFractions * kCoarse + cell % kFractions];
+            }),
+        outside_(2, [](uint32_t) { return kEvenPrior; }) {}
 
   template <class Port>
   [[gnu::always_inline]] int32_t code(Port& port, const Expectation& about, int32_t residual) {
@@ -162,6 +172,7 @@ class ClassCoder {
  private:
   static constexpr uint32_t kRows = 12, kCoarse = 4, kCoarseCells = kHalfOctaves / kCoarse * kFractions + 1;
   static constexpr uint32_t kSpreads = 9, kNears = 5, kColumns = kSpreads * kNears;
+  static constexpr int kMostLength = 7;
   static constexpr int kLongest = 28;  // of residuals, in binary digits
 
   static int floorLog(uint32_t x) { return 31 ^ __builtin_clz(x); }
@@ -177,26 +188,29 @@ class ClassCoder {
     return symbol;
   }
 
-  // Farther than the classes go: to which side, and how far in its number of digits and these.
+  // Farther than the classes go: how many digits this has and to which side, and the digits.
   template <class Port>
   [[gnu::noinline]] int32_t codeOutside(Port& port, int32_t residual, int shift) {
-    const bool below = below_.code(port, residual < 0);
-    const int32_t nearest = (below ? -kMostDirect : kMostDirect + 1) * (1 << shift) - below;
-    const auto far = static_cast<uint32_t>(below ? nearest - residual : residual - nearest);
+    const uint32_t habit = shift > 0;
+    const int32_t below = -kMostDirect * (1 << shift) - 1, above = (kMostDirect + 1) * (1 << shift);
+    const auto far = static_cast<uint32_t>(residual < 0 ? below - residual : residual - above);
     const uint32_t number = (far >> shift) + 1;
-    int length = 0;
-    while (length < kLongest - shift &&
-           longer_[static_cast<size_t>(std::min(length, 7))].code(port, number >> length > 1))
-      ++length;
+    int symbol = 0;
+    if constexpr (Port::kWriting) symbol = 2 * std::min(floorLog(number), kMostLength) + (residual < 0);
+    symbol = port.symbol(Parts(outside_[habit]), symbol);
+    outside_.learn(habit, symbol);
+    int length = symbol >> 1;
+    if (length == kMostLength) {
+      while (length < kLongest - shift && longer_.code(port, number >> length > 1)) ++length;
+    }
     const uint32_t top = 1u << length;
     const uint32_t whole = (top | port.bits(length, number & (top - 1))) - 1;
     const auto decoded = static_cast<int32_t>(whole << shift | port.bits(shift, far & ((1u << shift) - 1)));
-    return below ? nearest - decoded : nearest + decoded;
+    return (symbol & 1) != 0 ? below - decoded : above + decoded;
   }
 
-  Habits firsts_, seconds_;
-  Chance below_;
-  std::array<Chance, 8> longer_;
+  Habits firsts_, seconds_, outside_;
+  Chance longer_;
 };
 
 }  // namespace tutte::values

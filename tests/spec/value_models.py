@@ -185,7 +185,8 @@ class Habit:
 
 class Classes:
     def __init__(self):
-        self.first, self.second, self.outside = {}, {}, Chances()
+        self.first, self.second, self.longer = {}, {}, Chance()
+        self.outside = [Habit([2048 * (15 - i) for i in range(15)]) for _ in range(2)]
 
     def read(self, stream, octave, part, down, rank, members, spread, near):
         """octave: in halves; spread, near: sizes."""
@@ -203,12 +204,15 @@ class Classes:
         if symbol < 15:
             residual = (LEAST[symbol] << shift) - half + stream.plain(DIGITS[symbol] + shift)
         else:
-            below, length = self.outside['below'].read(stream), 0
-            while length < 28 - shift and self.outside[min(length, 7)].read(stream):
+            habit = self.outside[min(shift, 1)]
+            found = stream.symbol(habit.above)
+            habit.learn(found)
+            length = found >> 1
+            while 7 <= length < 28 - shift and self.longer.read(stream):
                 length += 1
             far = (2**length + stream.plain(length) - 1) << shift
             far += stream.plain(shift)
-            residual = (-(15 << shift) - 1 - far if below else (16 << shift) + far) - half
+            residual = (-(15 << shift) - 1 - far if found & 1 else (16 << shift) + far) - half
         return -residual if down else residual
 
 
