@@ -28,8 +28,8 @@ class Boundary {
   static constexpr Index kDegree = Script::kDegree;
   static constexpr bool kGathers = Script::kGathers;
 
-  Boundary(Script& script, TieRule tie, size_t expected_corners)
-      : script_(script), gaps_(tie), corners_(mesh_, expected_corners) {}
+  Boundary(Script& script, TieRule tie, size_t expected_corners, GapMemory& memory)
+      : script_(script), gaps_(tie, memory), corners_(mesh_, expected_corners) {}
 
   // The face that is being attached, while it is. Always a local variable whose address nobody outside keeps, so that
   // the inner loop has its fields in registers.

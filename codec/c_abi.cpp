@@ -15,6 +15,10 @@
 
 using namespace tutte;
 
+struct tutte_decoder {
+  Decoder decoder;
+};
+
 namespace {
 
 static_assert(static_cast<int>(Error::kTruncated) == -TUTTE_TRUNCATED);
@@ -209,14 +213,23 @@ int32_t tutte_decode_connectivity(const uint8_t* bytes, size_t size, const tutte
 }
 
 int32_t tutte_decode_payload(const uint8_t* bytes, size_t size, const tutte_limits* limits, tutte_mesh** mesh) {
+  tutte_decoder decoder;
+  return tutte_decode_next_payload(&decoder, bytes, size, limits, mesh);
+}
+
+tutte_decoder* tutte_new_decoder(void) { return new (std::nothrow) tutte_decoder; }
+void tutte_free_decoder(tutte_decoder* decoder) { delete decoder; }
+
+int32_t tutte_decode_next_payload(tutte_decoder* decoder, const uint8_t* bytes, size_t size, const tutte_limits* limits,
+                                  tutte_mesh** mesh) {
   if (mesh == nullptr) return TUTTE_INVALID_ARGUMENT;
   *mesh = nullptr;
-  if (!isSpan(bytes, size, 1)) return TUTTE_INVALID_ARGUMENT;
+  if (decoder == nullptr || !isSpan(bytes, size, 1)) return TUTTE_INVALID_ARGUMENT;
   const Result<PayloadView> payload = parsePayload({bytes, size});
   if (!payload) return statusOf(payload.error());
   if (!isWithin(payload->counts, limitsFrom(limits))) return TUTTE_LIMIT_EXCEEDED;
   if (!canAllocate(kDecoding.of(payload->counts))) return TUTTE_OUT_OF_MEMORY;
-  Result<PayloadMesh, PayloadFailure> decoded = decodePayloadMesh(*payload, limitsFrom(limits));
+  Result<PayloadMesh, PayloadFailure> decoded = decodePayloadMesh(*payload, limitsFrom(limits), decoder->decoder);
   if (!decoded) return statusOf(decoded.error().error);
   *mesh = newMesh(tutte_mesh::Origin::kPayload);
   if (*mesh == nullptr) return TUTTE_OUT_OF_MEMORY;

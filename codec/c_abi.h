@@ -114,6 +114,17 @@ int32_t tutte_decode_connectivity(const uint8_t* bytes, size_t size, const tutte
 /** Decodes a payload, that is, the bytes of a buffer view of the glTF extension, but for the attributes' values. */
 int32_t tutte_decode_payload(const uint8_t* bytes, size_t size, const tutte_limits* limits, tutte_mesh** mesh);
 
+/** What decoders need beside a mesh, kept from one payload to the next: small meshes decode several times as fast. */
+typedef struct tutte_decoder tutte_decoder;
+
+/** To be freed with tutte_free_decoder(), for which null is allowed. Null if there is no memory. */
+tutte_decoder* tutte_new_decoder(void);
+void tutte_free_decoder(tutte_decoder* decoder);
+
+/** As tutte_decode_payload(). */
+int32_t tutte_decode_next_payload(tutte_decoder* decoder, const uint8_t* bytes, size_t size, const tutte_limits* limits,
+                                  tutte_mesh** mesh);
+
 /** Where a section's bytes lie in a payload; its number is that of the specification (5: ATTRIBUTES). All checksums
  * are verified. TUTTE_NOT_AVAILABLE if the payload does not have that section. */
 int32_t tutte_find_section(const uint8_t* bytes, size_t size, uint32_t section, size_t* offset, size_t* length);

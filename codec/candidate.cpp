@@ -1,5 +1,6 @@
 #include "codec/candidate.h"
 
+#include "codec/encoder_memory.h"
 #include "codec/mesh_oracle.h"
 #include "codec/primal.h"
 #include "codec/range_coder.h"
@@ -13,12 +14,12 @@ namespace {
 constexpr Limits kNoLimits{kNone, kNone, kNone};
 
 template <class Statistics>
-Result<WalkedCandidate> walkWith(const Topology& topology, const Candidate& candidate) {
+Result<WalkedCandidate> walkWith(const Topology& topology, const Candidate& candidate, EncoderMemory& memory) {
   RangeWriter port;
-  MeshOracle oracle(topology, candidate.components);
+  MeshOracle oracle(topology, candidate.components, memory.oracle);
   const SectionHeader& header = candidate.header;
-  Script<Statistics, RangeWriter, MeshOracle> script(header, port, oracle);
-  Walk walk(script, header.tie, header.leastDegree(), kNoLimits, topology.twin.size());
+  Script<Statistics, RangeWriter, MeshOracle> script(header, port, oracle, memory.statistics);
+  Walk walk(script, header.tie, header.leastDegree(), kNoLimits, topology.twin.size(), memory.gaps);
   if (const Error error = walk.run(); error != Error::kNone) return error;
   WalkedCandidate walked;
   walked.header = header;
@@ -125,10 +126,10 @@ void orderVertices(const Topology& topology, const std::vector<Index>& umbrellas
 
 }  // namespace
 
-Result<WalkedCandidate> walkCandidate(TopologyPair& topologies, const Candidate& candidate) {
+Result<WalkedCandidate> walkCandidate(TopologyPair& topologies, const Candidate& candidate, EncoderMemory& memory) {
   const Topology& topology = topologies.walked(candidate.header.dual);
   return withQuickStatistics(candidate.header, [&]<class Statistics>(std::type_identity<Statistics>) {
-    return walkWith<Statistics>(topology, candidate);
+    return walkWith<Statistics>(topology, candidate, memory);
   });
 }
 

@@ -52,8 +52,10 @@ class TopologyPair {
   std::unique_ptr<DualTopology> dual_;
 };
 
+struct EncoderMemory;
+
 /// Codes valences and degrees.
-Result<WalkedCandidate> walkCandidate(TopologyPair& topologies, const Candidate& candidate);
+Result<WalkedCandidate> walkCandidate(TopologyPair& topologies, const Candidate& candidate, EncoderMemory& memory);
 
 /// Adds the repairs and makes the section.
 Result<Encoded> finishCandidate(TopologyPair& topologies, WalkedCandidate&& walked, PolygonView mesh);

@@ -6,9 +6,18 @@
 
 namespace tutte {
 
-Result<Connectivity> decode(std::span<const uint8_t> bytes, const Limits& limits) noexcept {
+Decoder::Decoder() : memory_(std::make_unique<CodecMemory>()) {}
+Decoder::~Decoder() = default;
+Decoder::Decoder(Decoder&&) noexcept = default;
+Decoder& Decoder::operator=(Decoder&&) noexcept = default;
+
+Result<Connectivity> Decoder::decode(std::span<const uint8_t> bytes, const Limits& limits) noexcept {
   Unwatched nobody;
-  return decodeSection(bytes, limits, nobody);
+  return decodeSection(bytes, limits, nobody, *memory_);
+}
+
+Result<Connectivity> decode(std::span<const uint8_t> bytes, const Limits& limits) noexcept {
+  return Decoder().decode(bytes, limits);
 }
 
 Polygons polygonsOf(const Connectivity& mesh, std::vector<Index>* corner_of) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "codec/codec_memory.h"
 #include "codec/mesh.h"
 #include "codec/primal.h"
 #include "codec/range_coder.h"
@@ -37,14 +38,14 @@ inline size_t expectedCorners(std::span<const uint8_t> symbols, const Limits& li
 /// The symbols of a section, with the statistics that its header names. `Port`: RangeReader, or one that does more.
 template <class Port, class Statistics, class Observer>
 Result<Connectivity> decodeSymbols(const SectionHeader& header, std::span<const uint8_t> symbols, const Limits& limits,
-                                   Observer& observer) {
+                                   Observer& observer, CodecMemory& memory) {
   Port port(symbols);
   observer.open(port);
   Blind oracle;
-  Watched<Script<Statistics, Port, Blind>, Observer> script(observer, header, port, oracle);
+  Watched<Script<Statistics, Port, Blind>, Observer> script(observer, header, port, oracle, memory.statistics);
   const Limits walk_limits = walkLimits(header, limits);
   const size_t expected = expectedCorners(symbols, walk_limits);
-  Walk walk(script, header.tie, header.leastDegree(), walk_limits, expected);
+  Walk walk(script, header.tie, header.leastDegree(), walk_limits, expected, memory.gaps);
   if (const Error error = walk.run(); error != Error::kNone) return error;
   PrimalMesh primal{std::move(walk.connectivity()), {}, {}};
   if (header.repairs && !header.dual) primal.on_boundary = std::move(walk).onBoundary();
@@ -67,12 +68,13 @@ Result<Connectivity> decodeSymbols(const SectionHeader& header, std::span<const 
 
 /// decode(), telling `observer` (see Unwatched) what the traversal's symbols say.
 template <class Port = RangeReader, class Observer>
-Result<Connectivity> decodeSection(std::span<const uint8_t> bytes, const Limits& limits, Observer& observer) {
+Result<Connectivity> decodeSection(std::span<const uint8_t> bytes, const Limits& limits, Observer& observer,
+                                   CodecMemory& memory) {
   SectionHeader header;
   const Result<std::span<const uint8_t>> symbols = readSection(bytes, header);
   if (!symbols) return symbols.error();
   const auto decode = [&]<class Statistics>(std::type_identity<Statistics>) {
-    return decodeSymbols<Port, Statistics>(header, *symbols, limits, observer);
+    return decodeSymbols<Port, Statistics>(header, *symbols, limits, observer, memory);
   };
   if constexpr (std::is_same_v<Observer, Unwatched>) return withQuickStatistics(header, decode);
   return withStatistics(header, decode);

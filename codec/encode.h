@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -32,5 +33,23 @@ struct Encoded {
 /// Codes the connectivity of any polygon mesh without loss. O(n log n) time, O(n) memory.
 /// Errors: kIndexOutOfRange, kCountMismatch, kTooLarge, kOutOfMemory.
 Result<Encoded> encode(PolygonView mesh, const EncodeOptions& options = {}) noexcept;
+
+struct EncoderMemory;
+
+/// Encodes many meshes, one after the other: keeps the memory that walks take beside their result. Different objects
+/// may be used by different threads at once.
+class Encoder {
+ public:
+  Encoder();
+  ~Encoder();
+  Encoder(Encoder&&) noexcept;
+  Encoder& operator=(Encoder&&) noexcept;
+
+  /// As the function encode().
+  Result<Encoded> encode(PolygonView mesh, const EncodeOptions& options = {}) noexcept;
+
+ private:
+  std::unique_ptr<EncoderMemory> memory_;
+};
 
 }  // namespace tutte

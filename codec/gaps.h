@@ -12,6 +12,7 @@
 #include <memory>
 #include <vector>
 
+#include "codec/borrowed.h"
 #include "codec/mesh.h"
 
 namespace tutte {
@@ -48,14 +49,31 @@ struct alignas(64) Gap {
   bool dummy = false;   ///< a dummy face touches the umbrella
 };
 
+/// What Gaps lie in.
+class GapMemory {
+  friend class Gaps;
+
+  /// Of a link: a gap's number, or below 0 the end of a list.
+  using Place = int32_t;
+
+  /// Of the queue, newest first: each list is a ring through its end.
+  struct Link {
+    Place after, before;
+  };
+
+  std::vector<std::unique_ptr<Gap[]>> blocks;
+  std::vector<Gap*> records;  // by number
+  std::vector<Link> links;    // the lists' ends, then the gaps'
+};
+
 /// Gap records, with numbers and a queue by free slots: every operation is O(1), and records never move. Numbers of
 /// released gaps are used again, last released first, so that both sides number alike.
 class Gaps {
  public:
   static constexpr Index kLists = 64;
 
-  explicit Gaps(TieRule tie) : oldest_first_(tie == TieRule::kOldestFirst) {
-    makeLinks(0);
+  Gaps(TieRule tie, GapMemory& memory) : memory_(memory), oldest_first_(tie == TieRule::kOldestFirst) {
+    reach(memory_->records.size());
     for (Index list = 0; list < kLists; ++list) first_[endOf(list)] = {endOf(list), endOf(list)};
   }
 
@@ -133,19 +151,16 @@ class Gaps {
  private:
   static constexpr Index kFirstBlock = 64;
 
-  /// Of a link: a gap's number, or below 0 the end of a list.
-  using Place = int32_t;
-
-  /// Of the queue, newest first: each list is a ring through its end.
-  struct Link {
-    Place after, before;
-  };
+  using Place = GapMemory::Place;
+  using Link = GapMemory::Link;
 
   static Place endOf(Index list) { return -1 - static_cast<Place>(list); }
 
-  void makeLinks(size_t gaps) {
-    links_.resize(kLists + gaps);
-    first_ = links_.data() + kLists;
+  // Makes links for as many gaps.
+  void reach(size_t gaps) {
+    memory_->links.resize(kLists + gaps);
+    first_ = memory_->links.data() + kLists;
+    records_ = memory_->records.data();
   }
 
   [[gnu::noinline]] Gap& extend() {
@@ -160,14 +175,17 @@ class Gaps {
   void openBlock() {
     const Index block = static_cast<Index>(std::bit_width(high_water_ / kFirstBlock));
     const size_t size = block == 0 ? kFirstBlock : kFirstBlock << (block - 1);
-    if (block == blocks_.size()) {
-      blocks_.push_back(std::make_unique_for_overwrite<Gap[]>(size));
-      makeLinks(high_water_ + size);
-      for (size_t i = 0; i < size; ++i) records_.push_back(&blocks_[block][i]);
+    auto& blocks = memory_->blocks;
+    if (block == blocks.size()) {
+      blocks.push_back(std::make_unique_for_overwrite<Gap[]>(size));
+      for (size_t i = 0; i < size; ++i) memory_->records.push_back(&blocks[block][i]);
+      reach(high_water_ + size);
     }
-    fresh_ = blocks_[block].get();
+    fresh_ = blocks[block].get();
     fresh_end_ = fresh_ + size;
   }
+
+  Borrowed<GapMemory> memory_;
 
   // None of these is an Index: so compilers know that what is written to records leaves them as they are.
   bool oldest_first_;
@@ -175,10 +193,8 @@ class Gaps {
   size_t high_water_ = 0;
   Gap* free_ = nullptr;
   Gap *fresh_ = nullptr, *fresh_end_ = nullptr;  // of the last block that is in use
-  std::vector<std::unique_ptr<Gap[]>> blocks_;
-  std::vector<Gap*> records_;  // by number
-  std::vector<Link> links_;
-  Link* first_ = nullptr;  // of the gaps; the lists' ends are before it
+  Gap* const* records_ = nullptr;                // by number
+  Link* first_ = nullptr;                        // of the gaps; the lists' ends are before it
 };
 
 }  // namespace tutte

@@ -6,18 +6,29 @@
 #include <cstdint>
 #include <vector>
 
+#include "codec/borrowed.h"
 #include "codec/mesh.h"
 #include "codec/mixer.h"
 
 namespace tutte {
 
+/// What a MatchModel remembers. Positions up to `past` are those of earlier meshes, so that nothing has to be cleared.
+struct MatchMemory {
+  std::vector<uint8_t> history;
+  std::vector<Index> positions;
+  Index past = 0;
+};
+
 class MatchModel {
  public:
   static constexpr Index kNoSymbol = 255;
 
-  explicit MatchModel(bool used) : used_(used) {
-    if (used) positions_.assign(size_t{1} << kTableBits, 0);
+  MatchModel(bool used, MatchMemory& memory) : used_(used), memory_(memory) {
+    if (!used || (!positions_.empty() && past_ <= kMostPast)) return;
+    positions_.assign(size_t{1} << kTableBits, 0);
+    past_ = 0;
   }
+  ~MatchModel() { past_ += static_cast<Index>(size_); }
 
   /// The symbol that the match expects next, or kNoSymbol. Symbols are valences (0 for a split) or, plus 128, degrees
   /// (1 for a dummy face), each up to 100.
@@ -46,12 +57,13 @@ class MatchModel {
     key_ = (key_ << 8 | (symbol + 1)) & 0xFFFFFFFFFFFFu;
     if (size_ < kLeast) return;
     Index& latest = positions_[key_ * 0x9E3779B97F4A7C15u >> (64 - kTableBits)];
-    if (length_ == 0 && latest != 0) find(latest);
-    latest = static_cast<Index>(size_);
+    if (length_ == 0 && latest > past_) find(latest - past_);
+    latest = past_ + static_cast<Index>(size_);
   }
 
   static constexpr int kTableBits = 13;
   static constexpr int kLeast = 6, kMost = 32;
+  static constexpr Index kMostPast = 1u << 30;
 
   void find(Index candidate) {
     const size_t end = size_;
@@ -79,16 +91,18 @@ class MatchModel {
   uint64_t key_ = 0;
   Index position_ = 0;
   int length_ = 0;
-  std::vector<uint8_t> history_;  // the first size_ are in use
+  Borrowed<MatchMemory> memory_;
+  std::vector<uint8_t>& history_ = memory_->history;  // the first size_ are in use
   size_t size_ = 0;
-  std::vector<Index> positions_;
+  std::vector<Index>& positions_ = memory_->positions;
+  Index& past_ = memory_->past;
   std::array<Slot, 16> slots_;
 };
 
 /// Predicts nothing.
 class NoMatch {
  public:
-  explicit NoMatch(bool) {}
+  NoMatch(bool, MatchMemory&) {}
   static constexpr Index expected() { return MatchModel::kNoSymbol; }
   static void add(Index) {}
 };

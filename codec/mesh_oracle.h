@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "codec/borrowed.h"
 #include "codec/components.h"
 #include "codec/gaps.h"
 #include "codec/topology.h"
@@ -11,17 +12,23 @@
 
 namespace tutte {
 
+/// What a MeshOracle notes.
+struct OracleMemory {
+  std::vector<uint8_t> face_done, umbrella_known;
+  std::vector<Index> outside;  ///< per gap: the corner whose edge is the leaving edge, in the face outside
+  std::vector<Index> gap_at;   ///< per corner outside the region: the gap whose leaving edge is its edge
+};
+
 /// Follows the walk on a Topology. All answers take O(1), but for splits: O(min(x, y)) where a gap is cut into x and
 /// y slots, which is O(n log n) in all.
 class MeshOracle {
  public:
   /// The plans cover all components.
-  MeshOracle(const Topology& topology, std::span<const ComponentPlan> plans)
-      : topology_(topology),
-        plans_(plans),
-        face_done_(topology.faces.faceCount(), 0),
-        umbrella_known_(topology.valence.size(), 0),
-        gap_at_(topology.twin.size(), kNone) {
+  MeshOracle(const Topology& topology, std::span<const ComponentPlan> plans, OracleMemory& memory)
+      : topology_(topology), plans_(plans), memory_(memory) {
+    face_done_.assign(topology.faces.faceCount(), 0);
+    umbrella_known_.assign(topology.valence.size(), 0);
+    gap_at_.resize(topology.twin.size());
     start_corners_.resize(topology.real_faces);
     umbrella_order_.resize(topology.valence.size());
   }
@@ -101,9 +108,9 @@ class MeshOracle {
 
   const Topology& topology_;
   std::span<const ComponentPlan> plans_;
-  std::vector<uint8_t> face_done_, umbrella_known_;
-  std::vector<Index> outside_;  // per gap: the corner whose edge is the leaving edge, in the face outside
-  std::vector<Index> gap_at_;   // per corner outside the region: the gap whose leaving edge is its edge
+  Borrowed<OracleMemory> memory_;
+  std::vector<uint8_t>&face_done_ = memory_->face_done, &umbrella_known_ = memory_->umbrella_known;
+  std::vector<Index>&outside_ = memory_->outside, &gap_at_ = memory_->gap_at;
   std::vector<Index> start_corners_, umbrella_order_;  // as far as faces_ and umbrellas_
   size_t faces_ = 0, umbrellas_ = 0;
   size_t next_component_ = 0;

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "codec/decode.h"
 #include "codec/face_groups.h"
 
 namespace tutte {
@@ -10,10 +9,10 @@ namespace {
 
 // Each step decodes one section into `mesh`.
 
-Error decodeConnectivity(const PayloadView& payload, PayloadMesh& mesh) {
+Error decodeConnectivity(const PayloadView& payload, PayloadMesh& mesh, Decoder& decoder) {
   const PayloadCounts& counts = payload.counts;
   Result<Connectivity> connectivity =
-      decode(payload[Section::kConnectivity], {counts.points(), counts.faces, counts.corners});
+      decoder.decode(payload[Section::kConnectivity], {counts.points(), counts.faces, counts.corners});
   if (!connectivity) return connectivity.error();
   mesh.connectivity = *std::move(connectivity);
   const bool as_claimed = mesh.connectivity.vertex_count == counts.points() &&
@@ -89,10 +88,11 @@ struct Step {
   Error (*decode)(const PayloadView&, PayloadMesh&);
 };
 
-// In the order in which they need each other.
+// After the connectivity, in the order in which they need each other.
 constexpr Step kSteps[] = {
-    {Section::kConnectivity, decodeConnectivity}, {Section::kSeams, decodeWedges},
-    {Section::kGroups, decodeFaceGroups},         {Section::kRings, decodeRingOwners},
+    {Section::kSeams, decodeWedges},
+    {Section::kGroups, decodeFaceGroups},
+    {Section::kRings, decodeRingOwners},
     {Section::kTriangulation, decodeTriangles},
 };
 
@@ -108,10 +108,13 @@ ArraySource PayloadMesh::arraySource() const {
   return {polygons, wedges, counts.wedges, groups, counts.groups, ring_owners, triangulation};
 }
 
-Result<PayloadMesh, PayloadFailure> decodeSections(const PayloadView& payload, const Limits& limits) {
+Result<PayloadMesh, PayloadFailure> decodeSections(const PayloadView& payload, const Limits& limits, Decoder& decoder) {
   if (!isWithin(payload.counts, limits)) return PayloadFailure{Error::kLimitExceeded};
   PayloadMesh mesh;
   mesh.counts = payload.counts;
+  if (const Error error = decodeConnectivity(payload, mesh, decoder); error != Error::kNone) {
+    return PayloadFailure{error, nameOf(Section::kConnectivity)};
+  }
   for (const Step& step : kSteps) {
     if (const Error error = step.decode(payload, mesh); error != Error::kNone) {
       return PayloadFailure{error, nameOf(step.section)};
@@ -149,7 +152,13 @@ Error turnIntoPolygons(const PayloadView& payload, PayloadMesh& mesh) {
 }
 
 Result<PayloadMesh, PayloadFailure> decodePayloadMesh(const PayloadView& payload, const Limits& limits) {
-  Result<PayloadMesh, PayloadFailure> mesh = decodeSections(payload, limits);
+  Decoder decoder;
+  return decodePayloadMesh(payload, limits, decoder);
+}
+
+Result<PayloadMesh, PayloadFailure> decodePayloadMesh(const PayloadView& payload, const Limits& limits,
+                                                      Decoder& decoder) {
+  Result<PayloadMesh, PayloadFailure> mesh = decodeSections(payload, limits, decoder);
   if (!mesh) return mesh;
   const Error error = completePolygons(payload, *mesh);
   if (error != Error::kNone) return PayloadFailure{error, nameOf(Section::kTriangulation)};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "codec/arrays.h"
+#include "codec/decode.h"
 #include "codec/mesh.h"
 #include "codec/payload.h"
 #include "codec/result.h"
@@ -43,9 +44,13 @@ struct PayloadFailure {
 /// decoded: kCountMismatch. Time and memory are O(counts + bytes).
 Result<PayloadMesh, PayloadFailure> decodePayloadMesh(const PayloadView& payload, const Limits& limits);
 
+/// The same, for one payload after the other.
+Result<PayloadMesh, PayloadFailure> decodePayloadMesh(const PayloadView& payload, const Limits& limits,
+                                                      Decoder& decoder);
+
 /// The same in two steps, for those who want few things in memory at once. First everything that is in the sections:
 /// `polygons`, `coded_corners`, `wedges` and, where it is not given, `triangulation` stay empty.
-Result<PayloadMesh, PayloadFailure> decodeSections(const PayloadView& payload, const Limits& limits);
+Result<PayloadMesh, PayloadFailure> decodeSections(const PayloadView& payload, const Limits& limits, Decoder& decoder);
 
 /// Fills in what decodeSections() left out, but for `coded_corners`, and gives up `connectivity` and `seams`. May fail
 /// with kCountMismatch, because of the number of triangles.

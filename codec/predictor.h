@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "codec/borrowed.h"
+#include "codec/mesh.h"
 #include "codec/mixer.h"
 
 namespace tutte {
@@ -20,6 +22,39 @@ inline constexpr int kNodes = 16;
 
 struct alignas(64) Line {
   std::array<Slot, kNodes> slot;
+};
+
+/// What a Predictor's tables lie in. It remembers which lines were used, unless they were many, so that a small mesh
+/// does not pay for clearing all of them.
+class TableMemory {
+ public:
+  /// As many lines, as new. They belong to contexts by as many lines.
+  Line* clear(size_t lines) {
+    if (lines_.size() == lines && left_ > 0) {
+      for (Index line : touched_) lines_[line] = Line();
+    } else {
+      lines_.assign(lines, Line());
+    }
+    touched_.clear();
+    left_ = lines / 2;
+    touched_.reserve(left_ + 16);
+    return lines_.data();
+  }
+
+  /// To be told the lines that are used for a symbol, as long as logs().
+  template <size_t n>
+  void touch(const std::array<Line*, n>& lines) {
+    for (Line* line : lines) touched_.push_back(static_cast<Index>(line - lines_.data()));
+    left_ -= std::min(left_, n);
+  }
+  bool logs() const { return left_ > 0; }
+
+  std::vector<uint16_t> runs;
+
+ private:
+  std::vector<Line> lines_;
+  std::vector<Index> touched_;
+  size_t left_ = 0;
 };
 
 /// Which weights and corrections serve a decision.
@@ -40,12 +75,12 @@ class Predictor {
   static constexpr int kSure = 1023, kMostRun = 16383;
   static_assert(kContexts < 16);
 
-  /// Tables of 2^table_bits lines.
-  explicit Predictor(int table_bits)
-      : shift_(64 - table_bits),
-        table_lines_(size_t{1} << table_bits),
-        lines_(table_lines_ * kContexts),
-        runs_(kMixes ? table_lines_ : 0) {
+  /// Tables of 2^table_bits lines, as new.
+  Predictor(int table_bits, TableMemory& memory)
+      : shift_(64 - table_bits), table_lines_(size_t{1} << table_bits), memory_(memory) {
+    lines_ = memory_->clear(table_lines_ * kContexts);
+    if (kMixes) memory_->runs.assign(table_lines_, 0);
+    runs_ = memory_->runs.data();
     weights_.by_node.fill(kInitial);
     if constexpr (kRich) {
       weights_.by_situation.fill(kInitial);
@@ -77,10 +112,11 @@ class Predictor {
 
   /// Selects the lines for a symbol.
   [[gnu::always_inline]] void enter(const std::array<uint64_t, kContexts>& keys) {
-    Line* table = lines_.data();
+    Line* table = lines_;
     for (int i = 0; i < kContexts; ++i, table += table_lines_) {
       line_[i] = &table[keys[i] * 0x9E3779B97F4A7C15u >> shift_];
     }
+    if (memory_->logs()) memory_->touch(line_);
   }
 
   /// Codes one decision.
@@ -191,9 +227,10 @@ class Predictor {
 
   int shift_;
   size_t table_lines_;
-  std::vector<Line> lines_;
+  Borrowed<TableMemory> memory_;
+  Line* lines_ = nullptr;
   std::array<Line*, kContexts> line_{};
-  std::vector<uint16_t> runs_;  // by key: how often in a row the first decision was a yes
+  uint16_t* runs_ = nullptr;  // by key: how often in a row the first decision was a yes
   uint16_t* run_ = nullptr;
   std::conditional_t<kRich, RichWeights, PlainWeights> weights_;
   LearningRate rate_;

@@ -39,11 +39,11 @@ class Script {
   static constexpr bool kGathers = Statistics::kGathers, kSums = Statistics::kSums;
   static constexpr Index kDegree = Statistics::kDegree;
 
-  Script(const SectionHeader& header, Port& port, Oracle& oracle)
+  Script(const SectionHeader& header, Port& port, Oracle& oracle, StatisticsMemory& memory)
       : header_(header),
         degrees_known_(header.degreesKnown()),
         dummy_umbrellas_(header.hasDummyUmbrellas()),
-        statistics_(header),
+        statistics_(header, memory),
         log_(header.copies),
         port_(port),
         oracle_(oracle) {}

@@ -30,7 +30,8 @@ Profile profileFor(size_t corners) {
 
 class Search {
  public:
-  Search(TopologyPair& topologies, const EncodeOptions& options) : topologies_(topologies), options_(options) {}
+  Search(TopologyPair& topologies, const EncodeOptions& options, EncoderMemory& memory)
+      : topologies_(topologies), options_(options), memory_(memory) {}
 
   Result<WalkedCandidate> run() {
     const size_t corners = std::max<size_t>(1, topologies_.primal().twin.size());
@@ -42,7 +43,7 @@ class Search {
     trySeeds();
     while (best_candidate_.header.table_bits > mostTableBits(best_.bits() / 8)) {
       best_candidate_.header.table_bits = mostTableBits(best_.bits() / 8);
-      Result<WalkedCandidate> walked = walkCandidate(topologies_, best_candidate_);
+      Result<WalkedCandidate> walked = walkCandidate(topologies_, best_candidate_, memory_);
       if (!walked) return walked.error();
       best_ = std::move(*walked);
     }
@@ -95,7 +96,7 @@ class Search {
 
   Error walkFirst(std::vector<ComponentPlan> components) {
     Candidate candidate = candidateFor(false, std::move(components));
-    Result<WalkedCandidate> walked = walkCandidate(topologies_, candidate);
+    Result<WalkedCandidate> walked = walkCandidate(topologies_, candidate, memory_);
     if (!walked) return walked.error();
     keep(std::move(candidate), std::move(*walked));
     return Error::kNone;
@@ -110,7 +111,7 @@ class Search {
   void attempt(Candidate candidate) {
     if (trials_left_ == 0) return;
     --trials_left_;
-    Result<WalkedCandidate> walked = walkCandidate(topologies_, candidate);
+    Result<WalkedCandidate> walked = walkCandidate(topologies_, candidate, memory_);
     if (walked && walked->bits() < best_.bits()) keep(std::move(candidate), std::move(*walked));
   }
 
@@ -167,6 +168,7 @@ class Search {
 
   TopologyPair& topologies_;
   const EncodeOptions& options_;
+  EncoderMemory& memory_;
   Profile profile_ = Profile::kDefault;
   size_t trials_left_ = 0;
   Candidate best_candidate_;
@@ -175,8 +177,9 @@ class Search {
 
 }  // namespace
 
-Result<WalkedCandidate> searchCandidates(TopologyPair& topologies, const EncodeOptions& options) {
-  return Search(topologies, options).run();
+Result<WalkedCandidate> searchCandidates(TopologyPair& topologies, const EncodeOptions& options,
+                                         EncoderMemory& memory) {
+  return Search(topologies, options, memory).run();
 }
 
 }  // namespace tutte

@@ -7,6 +7,6 @@
 namespace tutte {
 
 /// The smallest walk that `options.effort` allows to find: order of the queue, dual, matching, seeds of components.
-Result<WalkedCandidate> searchCandidates(TopologyPair& topologies, const EncodeOptions& options);
+Result<WalkedCandidate> searchCandidates(TopologyPair& topologies, const EncodeOptions& options, EncoderMemory& memory);
 
 }  // namespace tutte

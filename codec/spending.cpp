@@ -95,7 +95,8 @@ std::string_view nameOf(Topic topic) {
 Result<Spending> spendingOf(std::span<const uint8_t> section, const Limits& limits) {
   Spending spending;
   Accountant accountant(spending);
-  const Result<Connectivity> mesh = decodeSection<CountingReader>(section, limits, accountant);
+  CodecMemory memory;
+  const Result<Connectivity> mesh = decodeSection<CountingReader>(section, limits, accountant, memory);
   if (!mesh) return mesh.error();
   SectionHeader header;
   const Result<std::span<const uint8_t>> symbols = readSection(section, header);

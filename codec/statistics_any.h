@@ -15,12 +15,12 @@ class AnyStatistics {
   static constexpr bool kGathers = true, kSums = true;
   static constexpr Index kDegree = 0;
 
-  explicit AnyStatistics(const SectionHeader& header) : profile_(header.profile) {
+  AnyStatistics(const SectionHeader& header, StatisticsMemory& memory) : profile_(header.profile) {
     switch (profile_) {
-      case Profile::kFast: fast_.emplace(header); break;
-      case Profile::kDefault: default_.emplace(header); break;
-      case Profile::kSmall: small_.emplace(header); break;
-      default: paper_.emplace(header);
+      case Profile::kFast: fast_.emplace(header, memory); break;
+      case Profile::kDefault: default_.emplace(header, memory); break;
+      case Profile::kSmall: small_.emplace(header, memory); break;
+      default: paper_.emplace(header, memory);
     }
   }
 

@@ -79,6 +79,12 @@ class UsualSymbol {
   std::array<Index, 16> usual_;
 };
 
+/// What MixedStatistics lie in, for the most part.
+struct StatisticsMemory {
+  TableMemory vertices, faces;
+  MatchMemory match;
+};
+
 /// `degree`: of all faces, when none is a dummy and nothing is matched; 0: any mesh.
 template <class Profile, Index degree>
 class MixedStatistics {
@@ -86,11 +92,11 @@ class MixedStatistics {
   static constexpr bool kGathers = Profile::Vertex::kCount > 1, kSums = false;
   static constexpr Index kDegree = degree;
 
-  explicit MixedStatistics(const SectionHeader& header)
+  MixedStatistics(const SectionHeader& header, StatisticsMemory& memory)
       : header_(header),
-        vertices_(header.table_bits),
-        faces_(header.degreesKnown() ? 1 : header.table_bits),
-        match_(header.match) {}
+        vertices_(header.table_bits, memory.vertices),
+        faces_(header.degreesKnown() ? 1 : header.table_bits, memory.faces),
+        match_(header.match, memory.match) {}
 
   template <class Port>
   FaceAnswer face(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {

@@ -11,6 +11,8 @@
 
 namespace tutte {
 
+struct StatisticsMemory;
+
 /// The context of a face's degree: the degree of the face behind its first edge, and whether the valences at the ends
 /// of that edge are together below, at, or above what is regular there. 0 to 6.
 inline Index paperFaceContext(const FaceQuestion& question) {
@@ -41,7 +43,7 @@ class PaperStatistics {
   static constexpr bool kGathers = false, kSums = true;
   static constexpr Index kDegree = 0;
 
-  explicit PaperStatistics(const SectionHeader& header) : header_(header) {}
+  PaperStatistics(const SectionHeader& header, StatisticsMemory&) : header_(header) {}
 
   template <class Port>
   FaceAnswer face(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {

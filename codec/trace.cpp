@@ -75,7 +75,8 @@ class Tracer : public Unwatched {
 
 Error trace(std::span<const uint8_t> bytes, const Limits& limits, const TraceSink& sink) {
   Tracer tracer(sink);
-  const Result<Connectivity> mesh = decodeSection(bytes, limits, tracer);
+  CodecMemory memory;
+  const Result<Connectivity> mesh = decodeSection(bytes, limits, tracer, memory);
   return mesh ? Error::kNone : mesh.error();
 }
 

@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "codec/appender.h"
-#include "codec/boundary.h"
 #include "codec/gaps.h"
 #include "codec/mesh.h"
 #include "codec/questions.h"
 #include "codec/result.h"
+#include "codec/split_boundary.h"
 
 namespace tutte {
 
@@ -41,12 +41,13 @@ namespace tutte {
 ///   void step()                  on to the next corner of the face
 ///   void cross(const Gap& gap)   the gap's leaving edge becomes the edge from the next corner back to this one
 template <class Script>
-class Walk : public Boundary<Script> {
+class Walk : public SplitBoundary<Script> {
  public:
   /// `least_degree`: 3, or 2 for a dual, where a valence of 2 is a degree. `expected_corners`: room that is reserved
   /// at once; there may be more or less.
-  Walk(Script& script, TieRule tie, Index least_degree, const Limits& limits, size_t expected_corners)
-      : Base(script, tie, expected_corners),
+  Walk(Script& script, TieRule tie, Index least_degree, const Limits& limits, size_t expected_corners,
+       GapMemory& memory)
+      : Base(script, tie, expected_corners, memory),
         least_degree_(least_degree),
         limits_(limits),
         degrees_(mesh_.face_degrees, expected_corners / 3) {}
@@ -66,17 +67,16 @@ class Walk : public Boundary<Script> {
   }
 
   Connectivity& connectivity() { return mesh_; }
-  Index splits() const { return splits_; }
 
   /// The umbrellas that stand for dummy faces.
   std::vector<Index> dummyUmbrellas() && { return std::move(dummy_umbrellas_); }
 
  private:
-  using Base = Boundary<Script>;
+  using Base = SplitBoundary<Script>;
   using Face = typename Base::Face;
   using Base::become, Base::closeBoundary, Base::corners_, Base::emit, Base::emitKnown, Base::error_, Base::fail,
-      Base::gaps_, Base::kAnyReach, Base::kDegree, Base::kGathers, Base::know, Base::leave, Base::mesh_, Base::pairLast,
-      Base::pinched_, Base::requeue, Base::script_, Base::take, Base::umbrellas_, Base::use;
+      Base::finishSplits, Base::gaps_, Base::kAnyReach, Base::kDegree, Base::kGathers, Base::know, Base::mesh_,
+      Base::pinched_, Base::script_, Base::split, Base::umbrellas_;
 
   void finish() {
     corners_.finish();
@@ -241,63 +241,6 @@ class Walk : public Boundary<Script> {
     gap.opposite_next = 0;
   }
 
-  // A vertex of the region; becomes the current one. Where it keeps no free slot on its far side, the face goes on
-  // along the boundary.
-  [[gnu::noinline]] Face split(Face face) {
-    const SplitAnswer answer = script_.split(face.question(), gaps_);
-    if (script_.faulty()) return fail(script_.fault()), face;
-    error_ = Error::kMalformed;
-    if (answer.gap >= gaps_.highWater() || !gaps_[answer.gap].queued) return face;
-    Gap& gap = gaps_[answer.gap];
-    if (gap.free_slots < 2 || answer.slots_after > gap.free_slots - 2) return face;
-    ++splits_;
-    Gap& before = divide(gap, answer.slots_after);
-    closeBoundary(before, *face.current, face.corner - 1, face);
-    segments_.push_back({face.stretch, &before});
-    become(gap, face, false);
-    --face.missing;
-    ++face.found;
-    know(gap, face);
-    while (face.current->free_slots == 0) {
-      Gap &used = *face.current, &next = *used.next;
-      if (face.missing == 0 || !take(next, face)) return face;
-      pairLast(used.behind, face);
-      gaps_.release(used);
-      become(next, face, false);
-      --face.missing;
-    }
-    face.stretch = face.current;
-    error_ = Error::kNone;
-    return face;
-  }
-
-  // Cuts a gap in two around the slot that the face takes: a new one keeps the arriving edge, the old one the leaving.
-  Gap& divide(Gap& gap, Index slots_after) {
-    gaps_.dequeue(gap);
-    Gap& before = gaps_.create();
-    const Index number = before.number;
-    before = gap;
-    before.number = number;
-    before.free_slots -= 1 + slots_after;
-    before.prev->next = &before;
-    gap.free_slots = slots_after;
-    return before;
-  }
-
-  // After a face with splits. False: it visits an umbrella twice, which no encoder writes.
-  [[gnu::noinline]] bool finishSplits(Face face) {
-    for (const Segment& segment : segments_)
-      Base::template gather<kAnyReach>(segment.tail, segment.head, face), requeue(segment.tail, segment.head);
-    segments_.clear();
-    last_face_.resize(umbrellas_, kNone);
-    for (size_t corner = face.first_corner; corner < face.corner; ++corner) {
-      Index& last = last_face_[corners_.umbrellas()[corner]];
-      if (last == face.first_corner) return fail(Error::kMalformed);
-      last = static_cast<Index>(face.first_corner);
-    }
-    return true;
-  }
-
   // Checks the answer, and begins the face.
   [[gnu::always_inline]] bool open(Face& face) {
     if (kDegree == 0) return openTold(face);
@@ -331,19 +274,11 @@ class Walk : public Boundary<Script> {
     return true;
   }
 
-  // A stretch of the boundary along the current face, from a split back.
-  struct Segment {
-    Gap *tail, *head;
-  };
-
   Index least_degree_;
   Limits limits_;
   Appender degrees_;  // of the mesh's faces
   std::vector<Index> dummy_umbrellas_;
-  std::vector<Index> last_face_;   // per umbrella, as far as there were splits: first corner of the last face with any
-  std::vector<Segment> segments_;  // of the current face
-  std::vector<Index> starts_;      // of components: their first corners
-  Index splits_ = 0;
+  std::vector<Index> starts_;  // of components: their first corners
 };
 
 }  // namespace tutte

@@ -55,7 +55,7 @@ class PayloadMeshes {
     if (!range) return std::optional<PlannedMesh>();
     std::vector<CompressedView> views;
     for (const auto& [index, view] : payloads_.at(*range)) views.push_back(view);
-    auto mesh = decodePayload(asset_, *range, views);
+    auto mesh = decodePayload(asset_, *range, views, decoder_);
     if (!mesh) return mesh.error();
     PlannedMesh planned{*std::move(mesh), {}};
     if (!findGroups(plan, planned) || !chooseAttributes(plan, numbers, planned.mesh)) {
@@ -118,6 +118,7 @@ class PayloadMeshes {
 
   const Asset& asset_;
   PayloadViews payloads_;
+  Decoder decoder_;
 };
 
 /// Reads meshes from plain accessors.

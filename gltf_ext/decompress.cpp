@@ -69,10 +69,11 @@ Outcome<Asset> decompressGuarded(const Asset& asset) {
   if (!payloads) return payloads.error();
   if (payloads->empty()) return asset;
   Asset plain = asset;
+  Decoder decoder;
   for (const auto& [range, views] : *payloads) {
     std::vector<CompressedView> objects;
     for (const auto& [index, view] : views) objects.push_back(view);
-    const auto mesh = decodePayload(asset, range, objects);
+    const auto mesh = decodePayload(asset, range, objects, decoder);
     if (!mesh) return mesh.error();
     for (const auto& [index, view] : views) {
       auto bytes = decodedBytes(*mesh, view, pointerTo("bufferViews", index));
@@ -93,10 +94,11 @@ void compareFallback(const Asset& asset, size_t index, const Bytes& decoded, std
 }
 
 void validatePayload(const Asset& asset, const PayloadRange& range,
-                     const std::vector<std::pair<size_t, CompressedView>>& views, std::vector<Failure>& failures) {
+                     const std::vector<std::pair<size_t, CompressedView>>& views, Decoder& decoder,
+                     std::vector<Failure>& failures) {
   std::vector<CompressedView> objects;
   for (const auto& [index, view] : views) objects.push_back(view);
-  const auto mesh = decodePayload(asset, range, objects);
+  const auto mesh = decodePayload(asset, range, objects, decoder);
   if (!mesh) return failures.push_back(mesh.error());
   for (const auto& [index, view] : views) {
     const auto bytes = decodedBytes(*mesh, view, pointerTo("bufferViews", index));
@@ -123,7 +125,7 @@ Outcome<PayloadViews> payloadViewsOf(const Asset& asset) {
 }
 
 Outcome<PolygonMesh> decodePayload(const Asset& asset, const PayloadRange& range,
-                                   const std::vector<CompressedView>& views) {
+                                   const std::vector<CompressedView>& views, Decoder& decoder) {
   const std::string where = pointerOf(range);
   if (range.buffer >= asset.buffers.size()) return invalid(where, "there is no such buffer");
   const Bytes& buffer = asset.buffers[range.buffer];
@@ -139,7 +141,7 @@ Outcome<PolygonMesh> decodePayload(const Asset& asset, const PayloadRange& range
                                 nameOf(view.mode) + " declares");
     }
   }
-  auto mesh = unpack(bytes);
+  auto mesh = unpack(bytes, {}, decoder);
   if (mesh) return mesh;
   Failure failure = mesh.error();
   failure.where = where + (failure.where.empty() ? "" : " " + failure.where);
@@ -170,7 +172,8 @@ std::vector<Failure> validate(const Asset& asset) {
   const auto done = guarded<Done>([&]() -> Outcome<Done> {
     const auto payloads = payloadViewsOf(asset);
     if (!payloads) return payloads.error();
-    for (const auto& [range, views] : *payloads) validatePayload(asset, range, views, failures);
+    Decoder decoder;
+    for (const auto& [range, views] : *payloads) validatePayload(asset, range, views, decoder, failures);
     return Done{};
   });
   if (!done) failures.push_back(done.error());

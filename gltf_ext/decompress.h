@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "codec/decode.h"
 #include "gltf_ext/asset.h"
 #include "gltf_ext/extension.h"
 #include "gltf_ext/failure.h"
@@ -18,9 +19,9 @@ namespace tutte {
 /// what the JSON declares before memory is taken. Errors: kInvalid, kUnsupported.
 Outcome<Asset> decompress(const Asset& asset);
 
-/// Decodes one payload. `views` are all the views that name it: they bound what it may hold.
+/// Decodes one payload of several. `views` are all the views that name it: they bound what it may hold.
 Outcome<PolygonMesh> decodePayload(const Asset& asset, const PayloadRange& range,
-                                   const std::vector<CompressedView>& views);
+                                   const std::vector<CompressedView>& views, Decoder& decoder);
 
 /// The bytes that `view` stands for. Errors: kInvalid when the payload does not fit the view's count or stride.
 Outcome<Bytes> decodedBytes(const PolygonMesh& mesh, const CompressedView& view, const std::string& where);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "codec/decode.h"
 #include "codec/encode.h"
 #include "gltf_ext/failure.h"
 #include "gltf_ext/polygon_mesh.h"
@@ -79,6 +80,9 @@ Outcome<Packed> pack(const PolygonMesh& mesh, const PackOptions& options = {});
 
 /// The mesh that pack() stored, in coded order; its triangulation is always given. Any bytes may be passed.
 Outcome<PolygonMesh> unpack(std::span<const uint8_t> payload, const Limits& limits = {});
+
+/// The same, for one payload after the other.
+Outcome<PolygonMesh> unpack(std::span<const uint8_t> payload, const Limits& limits, Decoder& decoder);
 
 /// The same without `attributes`, which are not decoded: for those who want indices only.
 Outcome<PolygonMesh> unpackTopology(std::span<const uint8_t> payload, const Limits& limits = {});

@@ -34,10 +34,11 @@ PolygonMesh polygonMeshOf(PayloadMesh&& mesh, std::vector<Attribute>&& attribute
 }
 
 // The attributes are decoded before there are polygons, so that less is in memory at once.
-Outcome<PolygonMesh> unpackSections(std::span<const uint8_t> bytes, const Limits& limits, bool with_attributes) {
+Outcome<PolygonMesh> unpackSections(std::span<const uint8_t> bytes, const Limits& limits, bool with_attributes,
+                                    Decoder& decoder) {
   const Result<PayloadView> payload = parsePayload(bytes);
   if (!payload) return failureOf(payload.error(), "header");
-  Result<PayloadMesh, PayloadFailure> mesh = decodeSections(*payload, limits);
+  Result<PayloadMesh, PayloadFailure> mesh = decodeSections(*payload, limits, decoder);
   if (!mesh) return failureOf(mesh.error().error, std::string(mesh.error().where));
   std::vector<Attribute> attributes;
   if (with_attributes) {
@@ -53,11 +54,17 @@ Outcome<PolygonMesh> unpackSections(std::span<const uint8_t> bytes, const Limits
 }  // namespace
 
 Outcome<PolygonMesh> unpack(std::span<const uint8_t> payload, const Limits& limits) {
-  return unpackSections(payload, limits, true);
+  Decoder decoder;
+  return unpack(payload, limits, decoder);
+}
+
+Outcome<PolygonMesh> unpack(std::span<const uint8_t> payload, const Limits& limits, Decoder& decoder) {
+  return unpackSections(payload, limits, true, decoder);
 }
 
 Outcome<PolygonMesh> unpackTopology(std::span<const uint8_t> payload, const Limits& limits) {
-  return unpackSections(payload, limits, false);
+  Decoder decoder;
+  return unpackSections(payload, limits, false, decoder);
 }
 
 }  // namespace tutte

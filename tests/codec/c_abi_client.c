@@ -118,7 +118,11 @@ const char* c_client_read_payload(const uint8_t* bytes, size_t size) {
   tutte_mesh* mesh;
   tutte_counts counts, claimed;
   const char* problem;
-  CHECK(tutte_decode_payload(bytes, size, NULL, &mesh) == TUTTE_OK);
+  tutte_decoder* const decoder = tutte_new_decoder();
+  CHECK(tutte_decode_next_payload(decoder, bytes, size, NULL, &mesh) == TUTTE_OK);
+  tutte_free(mesh);
+  CHECK(tutte_decode_next_payload(decoder, bytes, size, NULL, &mesh) == TUTTE_OK);
+  tutte_free_decoder(decoder);
   CHECK(tutte_get_counts(mesh, &counts) == TUTTE_OK);
   CHECK(tutte_peek_counts(bytes, size, &claimed) == TUTTE_OK);
   claimed.umbrellas = counts.umbrellas;
@@ -152,6 +156,8 @@ static const char* hostile_input(void) {
   CHECK(tutte_decode_connectivity(NULL, 0, NULL, &mesh) == TUTTE_TRUNCATED && mesh == NULL);
   CHECK(tutte_decode_payload(NULL, 0, NULL, &mesh) == TUTTE_TRUNCATED && mesh == NULL);
   CHECK(tutte_decode_payload(one, 1, NULL, NULL) == TUTTE_INVALID_ARGUMENT);
+  CHECK(tutte_decode_next_payload(NULL, one, 1, NULL, &mesh) == TUTTE_INVALID_ARGUMENT && mesh == NULL);
+  tutte_free_decoder(NULL);
   CHECK(tutte_peek_counts(NULL, 5, &counts) == TUTTE_INVALID_ARGUMENT);
   CHECK(tutte_peek_counts(one, 1, NULL) == TUTTE_INVALID_ARGUMENT);
   CHECK(tutte_find_section(one, 1, 6, &offset, &length) == TUTTE_INVALID_ARGUMENT);

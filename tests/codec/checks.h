@@ -25,7 +25,7 @@ testing::AssertionResult isSameMesh(const Encoded& encoded, const Connectivity& 
 /// Encodes, decodes and checks all of the above but isUncut.
 testing::AssertionResult roundTrips(PolygonView input, const EncodeOptions& options = {});
 
-/// decode() of a copy in an allocation of exactly the right size gives an error or a valid mesh.
+/// Decoding a copy in an allocation of exactly the right size gives an error or a valid mesh.
 testing::AssertionResult isHarmless(std::span<const uint8_t> bytes);
 
 }  // namespace tutte

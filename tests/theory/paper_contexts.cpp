@@ -2,7 +2,7 @@
 
 #include "codec/components.h"
 #include "codec/encode.h"
-#include "codec/mesh_oracle.h"
+#include "codec/encoder_memory.h"
 #include "codec/range_coder.h"
 #include "codec/script.h"
 #include "codec/section.h"
@@ -16,7 +16,7 @@ namespace {
 template <bool kValenceContexts, bool kDegreeContexts>
 class Masked : public PaperStatistics {
  public:
-  explicit Masked(const SectionHeader& header) : PaperStatistics(header), header_(header) {}
+  Masked(const SectionHeader& header, StatisticsMemory& memory) : PaperStatistics(header, memory), header_(header) {}
 
   template <class Port>
   FaceAnswer face(Port& port, FaceQuestion question, const FaceAnswer& truth) {
@@ -42,10 +42,12 @@ class Masked : public PaperStatistics {
 
 template <bool kValenceContexts, bool kDegreeContexts>
 size_t symbolBytes(const Topology& topology, const std::vector<ComponentPlan>& plans, const SectionHeader& header) {
+  EncoderMemory memory;
   RangeWriter port;
-  MeshOracle oracle(topology, plans);
-  Script<Masked<kValenceContexts, kDegreeContexts>, RangeWriter, MeshOracle> script(header, port, oracle);
-  Walk walk(script, header.tie, header.leastDegree(), Limits{kNone, kNone, kNone}, topology.twin.size());
+  MeshOracle oracle(topology, plans, memory.oracle);
+  Script<Masked<kValenceContexts, kDegreeContexts>, RangeWriter, MeshOracle> script(header, port, oracle,
+                                                                                    memory.statistics);
+  Walk walk(script, header.tie, header.leastDegree(), Limits{kNone, kNone, kNone}, topology.twin.size(), memory.gaps);
   if (walk.run() != Error::kNone) return 0;
   return std::move(port).finish().size();
 }
