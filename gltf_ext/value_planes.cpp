@@ -78,7 +78,7 @@ struct Trial {
 };
 
 /// What an encoder tries; the smallest is kept. On large meshes it is told from so many sites.
-constexpr Index kMostTried = 8192;
+constexpr Index kMostTried = 1024;
 
 std::vector<Trial> trialsFor(PlaneKind kind) {
   switch (kind) {
