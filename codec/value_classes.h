@@ -1,6 +1,6 @@
 #pragma once
 // Adaptive coding of residuals by classes: one symbol of sixteen per residual, signs included, and plain digits. The
-// distributions of two contexts are averaged. Fast: no decision is taken more than once per residual.
+// distributions of one or two contexts are averaged. Fast: no decision is taken more than once per residual.
 
 #include <algorithm>
 #include <array>
@@ -15,48 +15,38 @@
 
 namespace tutte::values {
 
-/// Distributions that learn, each from a prior.
+/// Rates of learning: at first, and what they fall to; not quite, because steps are rounded down. Each falls much as if
+/// everything seen so far counted alike.
+inline constexpr int kFirstRate = 65536 / 12, kLastRate = 350;
+
+/// Where distributions go if only one symbol is seen: every other one keeps a little.
+TUTTE_TABLE std::array<Distribution, kSymbols> kTargets = madeTable([] {
+  constexpr int kLeast = 3;
+  std::array<Distribution, kSymbols> targets{};
+  for (int symbol = 0; symbol < kSymbols; ++symbol) {
+    for (int i = 0; i < kSymbols - 1; ++i) {
+      targets[symbol].above[i] =
+          static_cast<uint16_t>(kLeast * (kSymbols - 1 - i) + (i < symbol ? 32768 - 16 * kLeast : 0));
+    }
+    targets[symbol].above[kSymbols - 1] = static_cast<uint16_t>(-kLastRate);
+  }
+  return targets;
+});
+
+/// Distributions that learn.
 class Habits {
  public:
-  /// `prior(i)` gives the prior of habit i.
+  /// `prior(i)` gives what habit i begins with.
   template <class Prior>
-  Habits(uint32_t count, Prior prior) : seen_(count, 0) {
-    distributions_.reserve(count);
-    for (uint32_t i = 0; i < count; ++i) distributions_.push_back(prior(i));
+  Habits(uint32_t count, Prior prior) {
+    habits_.reserve(count);
+    for (uint32_t i = 0; i < count; ++i) habits_.push_back(prior(i));
   }
 
-  const Distribution& operator[](uint32_t habit) const { return distributions_[habit]; }
-
-  [[gnu::always_inline]] void learn(uint32_t habit, int symbol) {
-    uint8_t& seen = seen_[habit];
-    approach(distributions_[habit], kTargets[static_cast<size_t>(symbol)], kRates[seen]);
-    seen = static_cast<uint8_t>(seen + (seen < kLimit));
-  }
+  Distribution& operator[](uint32_t habit) { return habits_[habit]; }
 
  private:
-  static constexpr uint32_t kLimit = 127;
-  static constexpr int kLeast = 3;
-
-  // Where distributions go if only one symbol is seen: every other one keeps a little.
-  static TUTTE_TABLE std::array<Distribution, kSymbols> kTargets = madeTable([] {
-    std::array<Distribution, kSymbols> targets{};
-    for (int symbol = 0; symbol < kSymbols; ++symbol) {
-      for (int i = 0; i < kSymbols - 1; ++i) {
-        targets[symbol].above[i] =
-            static_cast<uint16_t>(kLeast * (kSymbols - 1 - i) + (i < symbol ? 32768 - 16 * kLeast : 0));
-      }
-    }
-    return targets;
-  });
-
-  static TUTTE_TABLE std::array<uint16_t, kLimit + 1> kRates = madeTable([] {
-    std::array<uint16_t, kLimit + 1> rates{};
-    for (uint32_t n = 0; n <= kLimit; ++n) rates[n] = static_cast<uint16_t>(65536 / (n + 12));
-    return rates;
-  });
-
-  std::vector<Distribution> distributions_;
-  std::vector<uint8_t> seen_;  // how many symbols, at most kLimit
+  std::vector<Distribution> habits_;
 };
 
 /// Classes of residuals, in ascending order: symbols 0 to 14 are -15 to -12, -11 to -8, -7 and -6, -5 and -4, -3, -2,
@@ -112,6 +102,7 @@ TUTTE_TABLE std::array<Distribution, kCells> kPriors = madeTable([] {
       last = std::max(std::min(beyond(8 * most + 4 - fraction) + outside, last - 3), 3 * (kSymbols - 1 - i));
       priors[cell].above[i] = static_cast<uint16_t>(last);
     }
+    priors[cell].above[kSymbols - 1] = static_cast<uint16_t>(-kFirstRate);
   }
   return priors;
 });
@@ -120,16 +111,18 @@ TUTTE_TABLE std::array<Distribution, kCells> kPriors = madeTable([] {
 TUTTE_TABLE Distribution kEvenPrior = madeTable([] {
   Distribution prior;
   for (size_t i = 0; i < kSymbols; ++i) prior.above[i] = static_cast<uint16_t>(2048 * (kSymbols - 1 - i));
+  prior.above[kSymbols - 1] = static_cast<uint16_t>(-kFirstRate);
   return prior;
 });
 
-/// Few habits, because small meshes visit each of them seldom.
+/// One context (`two` false) or two. Few habits, because small meshes visit each of them seldom.
 class ClassCoder {
  public:
   static constexpr bool kWantsAll = false;
 
-  ClassCoder()
-      : firsts_(kCells * kRows, [](uint32_t i) { return kPriors[i / kRows]; }),
+  explicit ClassCoder(bool two)
+      : two_(two),
+        firsts_(kCells * kRows, [](uint32_t i) { return kPriors[i / kRows]; }),
         seconds_(
             kCoarseCells * kColumns,
             [](uint32_t i) {
@@ -150,20 +143,20 @@ class ClassCoder {
     const auto octave = static_cast<uint32_t>(2 * log - 4) + (size >> (log - 1) & 1);
     const bool scaled = shift > 0;
     const uint32_t cell = scaled ? kCells - 1 : octave * kFractions + part;
-    const uint32_t coarse = scaled ? kCoarseCells - 1 : octave / kCoarse * kFractions + part;
-    const uint32_t first = (cell * 3 + static_cast<uint32_t>(about.rank)) * 4 + about.members;
-    const uint32_t second =
-        (coarse * kSpreads + lengthOf(about.spread, shift, kSpreads)) * kNears + lengthOf(about.near, shift, kNears);
+    Distribution& first = firsts_[(cell * 3 + static_cast<uint32_t>(about.rank)) * 4 + about.members];
+    Distribution& second =
+        two_ ? secondOf(about, scaled ? kCoarseCells - 1 : octave / kCoarse * kFractions + part, shift) : first;
     const int32_t turned = (residual ^ down) - down;
     const int32_t half = (1 << shift) >> 1;
-    int symbol = 0;
+    uint32_t symbol = 0;
     if constexpr (Port::kWriting) symbol = classOf((turned + half) >> shift);
-    symbol = port.symbol(Parts(firsts_[first], seconds_[second]), symbol);
-    firsts_.learn(first, symbol);
-    seconds_.learn(second, symbol);
+    // The average of one is that one.
+    symbol = port.symbol(Parts(first, second), symbol);
+    approach(first, kTargets[symbol]);
+    if (two_) approach(second, kTargets[symbol]);
     if (symbol == kSymbols - 1) [[unlikely]]
       return ((codeOutside(port, turned + half, shift) - half) ^ down) - down;
-    const ResidualClass found = kClasses[static_cast<size_t>(symbol)];
+    const ResidualClass found = kClasses[symbol];
     const int32_t least = found.least * (1 << shift) - half;
     const uint32_t digits = port.bits(found.digits + shift, static_cast<uint32_t>(turned - least));
     return ((least + static_cast<int32_t>(digits)) ^ down) - down;
@@ -177,29 +170,36 @@ class ClassCoder {
 
   static int floorLog(uint32_t x) { return 31 ^ __builtin_clz(x); }
 
+  [[gnu::always_inline]] Distribution& secondOf(const Expectation& about, uint32_t cell, int shift) {
+    const uint32_t spread = lengthOf(about.spread, shift, kSpreads), near = lengthOf(about.near, shift, kNears);
+    return seconds_[(cell * kSpreads + spread) * kNears + near];
+  }
+
   static uint32_t lengthOf(int32_t size, int shift, uint32_t count) {
     return std::min(static_cast<uint32_t>(floorLog((Expectation::half(size) >> shift) + 4) - 2), count - 1);
   }
 
-  static int classOf(int32_t scaled) {
+  static uint32_t classOf(int32_t scaled) {
     if (scaled < -kMostDirect || scaled > kMostDirect) return kSymbols - 1;
-    int symbol = 0;
-    while (kClasses[static_cast<size_t>(symbol) + 1].least <= scaled) ++symbol;
+    uint32_t symbol = 0;
+    while (kClasses[symbol + 1].least <= scaled) ++symbol;
     return symbol;
   }
 
   // Farther than the classes go: how many digits this has and to which side, and the digits.
   template <class Port>
   [[gnu::noinline]] int32_t codeOutside(Port& port, int32_t residual, int shift) {
-    const uint32_t habit = shift > 0;
+    Distribution& habit = outside_[shift > 0];
     const int32_t below = -kMostDirect * (1 << shift) - 1, above = (kMostDirect + 1) * (1 << shift);
     const auto far = static_cast<uint32_t>(residual < 0 ? below - residual : residual - above);
     const uint32_t number = (far >> shift) + 1;
-    int symbol = 0;
-    if constexpr (Port::kWriting) symbol = 2 * std::min(floorLog(number), kMostLength) + (residual < 0);
-    symbol = port.symbol(Parts(outside_[habit]), symbol);
-    outside_.learn(habit, symbol);
-    int length = symbol >> 1;
+    uint32_t symbol = 0;
+    if constexpr (Port::kWriting) {
+      symbol = 2 * static_cast<uint32_t>(std::min(floorLog(number), kMostLength)) + (residual < 0);
+    }
+    symbol = port.symbol(Parts(habit), symbol);
+    approach(habit, kTargets[symbol]);
+    auto length = static_cast<int>(symbol >> 1);
     if (length == kMostLength) {
       while (length < kLongest - shift && longer_.code(port, number >> length > 1)) ++length;
     }
@@ -209,6 +209,7 @@ class ClassCoder {
     return (symbol & 1) != 0 ? below - decoded : above + decoded;
   }
 
+  const bool two_;
   Habits firsts_, seconds_, outside_;
   Chance longer_;
 };

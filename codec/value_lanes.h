@@ -15,12 +15,14 @@ namespace tutte::values {
 inline constexpr int kSymbols = 16;
 
 /// A distribution of 16 symbols: lane i is the probability, in 1/32768, of a symbol above i. It is below 32768 and
-/// falls from lane to lane by at least 1; the last lane is 0.
+/// falls from lane to lane by at least 1. In the last lane is the rate at which it learns, in 1/65536, negative.
 struct alignas(32) Distribution {
   std::array<uint16_t, kSymbols> above{};
+
+  uint32_t rate() const { return 65536u - above[kSymbols - 1]; }
 };
 
-/// Eight numbers below 2^15, and what is done with them.
+/// Eight numbers of 16 bits with signs, and what is done with them.
 namespace lanes {
 
 #if defined(__SSE2__)
@@ -31,12 +33,13 @@ inline Eight load(const uint16_t* from) { return _mm_load_si128(reinterpret_cast
 inline void store(uint16_t* to, Eight value) { _mm_store_si128(reinterpret_cast<__m128i*>(to), value); }
 inline Eight splat(uint32_t value) { return _mm_set1_epi16(static_cast<int16_t>(value)); }
 inline Eight average(Eight a, Eight b) { return _mm_avg_epu16(a, b); }
+inline Eight withoutLast(Eight eight) { return _mm_and_si128(eight, _mm_setr_epi16(-1, -1, -1, -1, -1, -1, -1, 0)); }
 inline Eight towards(Eight from, Eight to, Eight rate) {
   return _mm_add_epi16(from, _mm_mulhi_epi16(_mm_sub_epi16(to, from), rate));
 }
-inline int countAbove(Eight low, Eight high, Eight limit) {
+inline uint32_t countAbove(Eight low, Eight high, Eight limit) {
   const __m128i above = _mm_packs_epi16(_mm_cmpgt_epi16(low, limit), _mm_cmpgt_epi16(high, limit));
-  return __builtin_ctz(~static_cast<uint32_t>(_mm_movemask_epi8(above)));
+  return static_cast<uint32_t>(__builtin_ctz(~static_cast<uint32_t>(_mm_movemask_epi8(above))));
 }
 
 #elif defined(__wasm_simd128__)
@@ -47,14 +50,15 @@ inline Eight load(const uint16_t* from) { return wasm_v128_load(from); }
 inline void store(uint16_t* to, Eight value) { wasm_v128_store(to, value); }
 inline Eight splat(uint32_t value) { return wasm_i16x8_splat(static_cast<int16_t>(value)); }
 inline Eight average(Eight a, Eight b) { return wasm_u16x8_avgr(a, b); }
+inline Eight withoutLast(Eight eight) { return wasm_i16x8_replace_lane(eight, 7, 0); }
 inline Eight towards(Eight from, Eight to, Eight rate) {
   const v128_t way = wasm_i16x8_sub(to, from);
   const v128_t low = wasm_i32x4_extmul_low_i16x8(way, rate), high = wasm_i32x4_extmul_high_i16x8(way, rate);
   return wasm_i16x8_add(from, wasm_i16x8_shuffle(low, high, 1, 3, 5, 7, 9, 11, 13, 15));
 }
-inline int countAbove(Eight low, Eight high, Eight limit) {
+inline uint32_t countAbove(Eight low, Eight high, Eight limit) {
   const v128_t above = wasm_i8x16_narrow_i16x8(wasm_i16x8_gt(low, limit), wasm_i16x8_gt(high, limit));
-  return __builtin_ctz(~static_cast<uint32_t>(wasm_i8x16_bitmask(above)));
+  return static_cast<uint32_t>(__builtin_ctz(~static_cast<uint32_t>(wasm_i8x16_bitmask(above))));
 }
 
 #else
@@ -68,7 +72,7 @@ Eight each(Lane lane) {
   return result;
 }
 inline Eight load(const uint16_t* from) {
-  return each([&](size_t i) { return int32_t{from[i]}; });
+  return each([&](size_t i) { return int32_t{static_cast<int16_t>(from[i])}; });
 }
 inline void store(uint16_t* to, const Eight& value) {
   for (size_t i = 0; i < 8; ++i) to[i] = static_cast<uint16_t>(value[i]);
@@ -76,18 +80,21 @@ inline void store(uint16_t* to, const Eight& value) {
 inline Eight splat(uint32_t value) {
   return each([&](size_t) { return static_cast<int32_t>(value); });
 }
-/// Rounded up.
+/// Rounded up; of numbers of the same sign.
 inline Eight average(const Eight& a, const Eight& b) {
   return each([&](size_t i) { return (a[i] + b[i] + 1) >> 1; });
+}
+inline Eight withoutLast(const Eight& eight) {
+  return each([&](size_t i) { return i == 7 ? 0 : eight[i]; });
 }
 /// from + (to - from) * rate / 65536, rounded down.
 inline Eight towards(const Eight& from, const Eight& to, const Eight& rate) {
   return each([&](size_t i) { return from[i] + ((to[i] - from[i]) * rate[i] >> 16); });
 }
 /// How many of 16 falling numbers are above a limit.
-inline int countAbove(const Eight& low, const Eight& high, const Eight& limit) {
-  int count = 0;
-  for (size_t i = 0; i < 8; ++i) count += (low[i] > limit[i]) + (high[i] > limit[i]);
+inline uint32_t countAbove(const Eight& low, const Eight& high, const Eight& limit) {
+  uint32_t count = 0;
+  for (size_t i = 0; i < 8; ++i) count += uint32_t{low[i] > limit[i]} + uint32_t{high[i] > limit[i]};
   return count;
 }
 
@@ -105,29 +112,29 @@ class Parts {
               lanes::average(lanes::load(&a.above[8]), lanes::load(&b.above[8]))) {}
 
   /// A symbol takes begin() to end() - 1 of 32768.
-  uint32_t begin(int symbol) const { return lane_[static_cast<size_t>(8 + symbol)]; }
-  uint32_t end(int symbol) const { return lane_[static_cast<size_t>(7 + symbol)]; }
+  uint32_t begin(uint32_t symbol) const { return lane_[size_t{8} + symbol]; }
+  uint32_t end(uint32_t symbol) const { return lane_[size_t{7} + symbol]; }
 
   /// The symbol that takes `position`.
-  int find(uint32_t position) const { return lanes::countAbove(low_, high_, lanes::splat(position)); }
+  uint32_t find(uint32_t position) const { return lanes::countAbove(low_, high_, lanes::splat(position)); }
 
  private:
-  Parts(const lanes::Eight& low, const lanes::Eight& high) : low_(low), high_(high) {
+  Parts(const lanes::Eight& low, const lanes::Eight& high) : low_(low), high_(lanes::withoutLast(high)) {
     lane_[7] = 32768;
-    lanes::store(&lane_[8], low);
-    lanes::store(&lane_[16], high);
+    lanes::store(&lane_[8], low_);
+    lanes::store(&lane_[16], high_);
   }
 
   const lanes::Eight low_, high_;
   alignas(16) std::array<uint16_t, 8 + kSymbols> lane_;
 };
 
-/// Moves every lane towards `target` by rate / 65536 of the distance, rounded down. rate < 2^15.
-inline void approach(Distribution& distribution, const Distribution& target, uint32_t rate) {
-  const lanes::Eight factor = lanes::splat(rate);
+/// Moves every lane towards `target`, at the rate in the last lane, and that lane, too. Rounded down.
+[[gnu::always_inline]] inline void approach(Distribution& distribution, const Distribution& target) {
+  const lanes::Eight rate = lanes::splat(distribution.rate());
   for (size_t i = 0; i < kSymbols; i += 8) {
     uint16_t* const at = &distribution.above[i];
-    lanes::store(at, lanes::towards(lanes::load(at), lanes::load(&target.above[i]), factor));
+    lanes::store(at, lanes::towards(lanes::load(at), lanes::load(&target.above[i]), rate));
   }
 }
 

@@ -32,7 +32,7 @@ class ValueWriter {
     return value;
   }
 
-  int symbol(const values::Parts& parts, int value) {
+  uint32_t symbol(const values::Parts& parts, uint32_t value) {
     note(2 * parts.begin(value), 2 * (parts.end(value) - parts.begin(value)));
     return value;
   }
@@ -110,8 +110,8 @@ class ValueReader {
     return value;
   }
 
-  int symbol(const values::Parts& parts, int = 0) {
-    const int value = parts.find(static_cast<uint32_t>(state_ & 0xFFFF) >> 1);
+  uint32_t symbol(const values::Parts& parts, uint32_t = 0) {
+    const uint32_t value = parts.find(static_cast<uint32_t>(state_ & 0xFFFF) >> 1);
     const uint32_t begin = parts.begin(value);
     take(2 * begin, 2 * (parts.end(value) - begin));
     return value;

@@ -19,10 +19,10 @@
 
 namespace tutte::values {
 
-/// Up to `C` components in numbers of type `T` (value_nodes.h). Values lie in [0, max]. With `points`,
-/// three components are points of a surface; with `tangent`, too, the third is corrected towards its tangent plane.
-/// With `echoes`, values may come again (value_echoes.h), and with `copies`, components follow their originals
-/// (value_copies.h).
+/// Up to `C` components in numbers of type `T` (value_nodes.h). Values lie in [0, max]. With `points`, three components
+/// are points of a surface, and the third is corrected towards its tangent plane. `fast` does without that, and without
+/// what a site's first components say about the others. With `echoes`, values may come again (value_echoes.h), and with
+/// `copies`, components follow their originals (value_copies.h).
 template <class Port, int C, class T, class Guide>
 class SitePredictor {
  public:
@@ -30,7 +30,7 @@ class SitePredictor {
     int components;
     int32_t max;
     bool points;
-    bool tangent;
+    bool fast;
     bool echoes;
     bool copies;
   };
@@ -45,7 +45,8 @@ class SitePredictor {
         residuals_(residuals),
         count_(options.components),
         max_(options.max),
-        tangent_(options.points && options.tangent) {
+        tangent_(options.points && !options.fast),
+        fast_(options.fast) {
     if (options.echoes) echoes_.emplace(graph, nodes_, count_);
     if (options.copies) copies_.emplace(graph, nodes_, options.points);
     picks_.fill(Chance(6160));
@@ -219,15 +220,17 @@ class SitePredictor {
   [[gnu::always_inline]] Expectation expect(size_t i, size_t place, const SoFar& so_far, T prediction) const {
     Expectation about;
     about.near = near_error_[i];
-    about.spread = static_cast<int32_t>(std::min<T>(stencil_.spread[i], kWidest));
+    about.spread =
+        static_cast<int32_t>(sizeof(T) == 4 ? stencil_.spread[i] : std::min<T>(stencil_.spread[i], kMostSpread));
     about.members = members_context_;
     about.rank = static_cast<int>(std::min<size_t>(place, 2));
     about.fraction = static_cast<uint32_t>(prediction & 15);
     const T apart = stencil_.lean[i] - prediction;
-    about.side = plane_.bent() ? plane_.normal(i) : static_cast<int32_t>(std::clamp<T>(apart, -1, 1));
+    about.side =
+        plane_.bent() ? plane_.normal(i) : static_cast<int32_t>(sizeof(T) == 4 ? apart : std::clamp<T>(apart, -1, 1));
     // Nothing is decided, because how many parallelograms there are is hard to foresee.
     const int32_t usual = all_error_ + about.near;
-    const int32_t around = (usual + (place == 0 ? usual : so_far.weighed)) >> 2;
+    const int32_t around = (usual + (place == 0 || fast_ ? usual : so_far.weighed)) >> 2;
     const int32_t spread = std::min(about.spread, 2 * around | spread_limit_);
     about.estimate = (around * (8 - spread_share_) + spread * spread_share_) >> estimate_shift_;
     if constexpr (kWantsAll) {
@@ -250,7 +253,7 @@ class SitePredictor {
   int64_t perComponent(int64_t sum) const { return width() == 3 ? sum * 21845 >> 16 : sum / width(); }
 
   static constexpr T kWidest = 1 << 25;
-  static constexpr int32_t kMostSpread = (1 << 26) - 1;
+  static constexpr int32_t kMostSpread = 1 << 28;  // numbers of 32 bits never reach it
   static uint32_t small(int64_t x) { return static_cast<uint32_t>(std::min<int64_t>(x, 0x7FFFFFF0)); }
 
   Port& port_;
@@ -267,7 +270,7 @@ class SitePredictor {
 
   const int count_;  // of components
   const T max_;
-  const bool tangent_;
+  const bool tangent_, fast_;
   bool damaged_ = false;
   int32_t typical_error_ = 64;
   Vec<C, int32_t> last_{};

@@ -12,12 +12,12 @@ namespace tutte::values {
 
 class Residuals {
  public:
-  /// `mixing`: the smallest profile; otherwise by classes.
-  explicit Residuals(bool mixing) {
+  /// `mixing`: the smallest profile; otherwise by classes, with one or two contexts.
+  Residuals(bool mixing, bool two_contexts) {
     if (mixing)
       mixing_.emplace();
     else
-      classes_.emplace();
+      classes_.emplace(two_contexts);
   }
 
   /// Calls visit(coder) with one of the coders.

@@ -14,9 +14,9 @@ namespace tutte {
 
 /// How much time is spent on size: the number of statistics that are mixed. Part of the format.
 enum class ValueProfile : uint8_t {
-  kFast = 0,     ///< one context, no mixing
-  kDefault = 1,  ///< two
-  kSmall = 2,    ///< five
+  kFast = 0,     ///< one context, no tangent planes
+  kDefault = 1,  ///< two, averaged
+  kSmall = 2,    ///< eight, mixed
 };
 
 /// What the values stand for, which decides about their prediction. Part of the format.

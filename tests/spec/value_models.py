@@ -173,18 +173,18 @@ PRIORS = priors()
 
 class Habit:
     def __init__(self, prior):
-        self.above, self.seen = list(prior), 0
+        self.above, self.rate = list(prior), 5461
 
     def learn(self, symbol):
-        rate = 65536 // (self.seen + 12)
         for i, x in enumerate(self.above):
             target = 3 * (15 - i) + (32720 if i < symbol else 0)
-            self.above[i] += (target - x) * rate >> 16
-        self.seen = min(self.seen + 1, 127)
+            self.above[i] += (target - x) * self.rate >> 16
+        self.rate -= (self.rate - 350) * self.rate >> 16
 
 
 class Classes:
-    def __init__(self):
+    def __init__(self, fast):
+        self.fast = fast
         self.first, self.second, self.longer = {}, {}, Chance()
         self.outside = [Habit([2048 * (15 - i) for i in range(15)]) for _ in range(2)]
 
@@ -197,9 +197,12 @@ class Classes:
         columns = [min(log4((size >> 1) >> shift) // 4, most) for size, most in ((spread, 8), (near, 4))]
         first = self.first.setdefault((cell, part, rank, members), Habit(PRIORS[cell][part]))
         second = self.second.setdefault((coarse, part, *columns), Habit(PRIORS[4 * coarse][part]))
-        symbol = stream.symbol([a + b + 1 >> 1 for a, b in zip(first.above, second.above)])
+        if self.fast:
+            symbol = stream.symbol(first.above)
+        else:
+            symbol = stream.symbol([a + b + 1 >> 1 for a, b in zip(first.above, second.above)])
+            second.learn(symbol)
         first.learn(symbol)
-        second.learn(symbol)
         half = 1 << shift >> 1
         if symbol < 15:
             residual = (LEAST[symbol] << shift) - half + stream.plain(DIGITS[symbol] + shift)

@@ -23,7 +23,7 @@ class Coder:
         self.values, self.errors, self.picked = {}, {}, {}
         self.last, self.typical = [0] * m, 64
         self.picks, self.indices, self.gains = Chances(6160), Chances(), {}
-        self.residuals = Lengths() if profile == SMALL else Classes()
+        self.residuals = Lengths() if profile == SMALL else Classes(profile == FAST)
         self.echoes = Echoes(self) if echoes else None
         self.copies = Copies(graph.mesh, graph.site, self.values, m == 3 and kind == POINTS) if copies else None
         self.guide = {TEXTURE: Textures, DIRECTION: Directions}.get(kind, lambda *_: None)(self, places)
@@ -126,8 +126,8 @@ class Coder:
 
     def residual(self, around, i, rank, so_far, prediction, side, base, members, picked):
         near, count = self.near[i], len(around.members)
-        spread = min(around.spread[i], 2**25)
-        estimate = (self.all + near >> 1 if rank == 0 else
+        spread = min(around.spread[i], 2**28)
+        estimate = (self.all + near >> 1 if rank == 0 or self.profile == FAST else
                     self.all + near + (2 if rank == 1 else 1) * so_far >> 2)
         if count > 1:
             estimate = estimate + spread >> 1
