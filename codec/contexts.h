@@ -78,17 +78,18 @@ struct VertexFeatures {
   History history;
 
   // Inlined, so that what no context of a profile reads is not gathered. In a seed face some of the gaps do not exist.
-  template <bool kSeed>
-  [[gnu::always_inline]] VertexFeatures(std::bool_constant<kSeed>, const VertexQuestion& q, const History& recent)
+  // `Seed`: bool, or a constant that is one.
+  template <class Seed>
+  [[gnu::always_inline]] VertexFeatures(Seed seed, const VertexQuestion& q, const History& recent)
       : missing(std::min(q.missing, Index{7})), history(recent) {
-    const auto at = [](const Gap* gap) -> const Gap& { return kSeed ? orNone(gap) : *gap; };
+    const auto at = [seed](const Gap* gap) -> const Gap& { return seed ? orNone(gap) : *gap; };
     const Gap &a = at(q.head), &b = at(q.current), &edge = at(q.before_tail), &next = at(b.next), &prev = at(a.prev);
     head = a.capped, current = b.capped, before = prev.capped, after = next.capped;
     head_slots = slots(a), current_slots = slots(b), before_slots = slots(prev), after_slots = slots(next);
     const int regular = q.degree == 3 ? 6 : 4;
     head_sum = sum(a, regular), current_sum = sum(b, regular);
-    opposite = q.index == 0 && !kSeed ? edge.opposite_next : 15;
-    opposite_head = q.missing == 1 && !kSeed ? a.opposite_own : 15;
+    opposite = q.index == 0 && !seed ? edge.opposite_next : 15;
+    opposite_head = q.missing == 1 && !seed ? a.opposite_own : 15;
     predicted = sidesOf(q.angle, q.missing);
     degree_after = std::min(b.degree_behind, Index{15});
   }

@@ -68,7 +68,7 @@ class Script {
     const VertexAnswer truth = oracle_.vertex();
     if (kDegree == 0 && log_.replaying()) return replayedVertex();
     port_.about(Topic::kValences);
-    return noted(statistics_.vertex(port_, question, truth.valence), truth);
+    return noted(statistics_.vertex(port_, question, truth.valence, std::false_type()), truth);
   }
 
   /// Of the first face of a component.
@@ -76,7 +76,7 @@ class Script {
     const VertexAnswer truth = oracle_.vertex();
     if (log_.replaying()) return replayedVertex();
     port_.about(Topic::kValences);
-    return noted(statistics_.seedVertex(port_, question, truth.valence), truth);
+    return noted(statistics_.vertex(port_, question, truth.valence, std::true_type()), truth);
   }
 
   SplitAnswer split(const VertexQuestion& question, const Gaps& gaps) {

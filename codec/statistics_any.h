@@ -30,13 +30,8 @@ class AnyStatistics {
   }
 
   template <class Port>
-  [[gnu::noinline]] Index vertex(Port& port, const VertexQuestion& question, Index truth) {
-    return ask([&](auto& statistics) { return statistics.vertex(port, question, truth); });
-  }
-
-  template <class Port>
-  [[gnu::noinline]] Index seedVertex(Port& port, const VertexQuestion& question, Index truth) {
-    return ask([&](auto& statistics) { return statistics.seedVertex(port, question, truth); });
+  [[gnu::noinline]] Index vertex(Port& port, const VertexQuestion& question, Index truth, bool seed) {
+    return ask([&](auto& statistics) { return statistics.vertex(port, question, truth, seed); });
   }
 
  private:

@@ -106,21 +106,9 @@ class MixedStatistics {
     return answer;
   }
 
-  template <class Port>
-  [[gnu::always_inline]] Index vertex(Port& port, const VertexQuestion& question, Index truth) {
-    return codeVertex(std::false_type(), port, question, truth);
-  }
-
-  template <class Port>
-  Index seedVertex(Port& port, const VertexQuestion& question, Index truth) {
-    return codeVertex(std::true_type(), port, question, truth);
-  }
-
- private:
-  static constexpr Index kLongest = 24;
-
-  template <class Seed, class Port>
-  [[gnu::always_inline]] Index codeVertex(Seed seed, Port& port, const VertexQuestion& question, Index truth) {
+  /// `seed`: whether the face is a component's first; bool, or a constant that is one.
+  template <class Port, class Seed>
+  [[gnu::always_inline]] Index vertex(Port& port, const VertexQuestion& question, Index truth, Seed seed) {
     const Index face = question.dummy ? 1 : std::min(question.degree, Index{15});
     const Index usual = usual_.of(face);
     const VertexFeatures features(seed, question, history_);
@@ -142,13 +130,16 @@ class MixedStatistics {
     if (is_usual) {
       usual_.addUsual(face);
     } else {
-      valence = codeUnusual(port, usual, Seed::value, truth, expected, situation);
+      valence = codeUnusual(port, usual, seed, truth, expected, situation);
       usual_.add(face, valence);
     }
     if (Profile::kHistory) history_.addValence(valence);
     match_.add(std::min(valence, Index{100}));
     return valence;
   }
+
+ private:
+  static constexpr Index kLongest = 24;
 
   template <class Port>
   FaceAnswer codeFace(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {

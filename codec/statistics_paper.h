@@ -63,12 +63,7 @@ class PaperStatistics {
   }
 
   template <class Port>
-  Index seedVertex(Port& port, const VertexQuestion& question, Index truth) {
-    return vertex(port, question, truth);
-  }
-
-  template <class Port>
-  Index vertex(Port& port, const VertexQuestion& question, Index truth) {
+  Index vertex(Port& port, const VertexQuestion& question, Index truth, bool /*seed*/) {
     const Index context = paperVertexContext(question);
     const Index symbol = valence_[context].code(port, truth >= kSymbols ? kEscape : truth);
     return symbol == kEscape ? kSymbols + large_valence_.code(port, truth - kSymbols) : symbol;

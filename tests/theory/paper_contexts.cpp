@@ -26,14 +26,9 @@ class Masked : public PaperStatistics {
   }
 
   template <class Port>
-  Index vertex(Port& port, VertexQuestion question, Index truth) {
+  Index vertex(Port& port, VertexQuestion question, Index truth, bool seed) {
     if (!kValenceContexts) question.degree = 6;  // as all that are not 3, 4 or 5
-    return PaperStatistics::vertex(port, question, truth);
-  }
-
-  template <class Port>
-  Index seedVertex(Port& port, const VertexQuestion& question, Index truth) {
-    return vertex(port, question, truth);
+    return PaperStatistics::vertex(port, question, truth, seed);
   }
 
  private:
