@@ -32,7 +32,7 @@ class ComponentLog {
       replaying_ = true;
       at_ = recent_.front().start;
     } else {
-      recent_.insert(recent_.begin(), {number, symbols_.size()});
+      recent_.insert(recent_.begin(), {number, size_});
       if (recent_.size() > kMost) recent_.pop_back();
     }
     return true;
@@ -44,10 +44,12 @@ class ComponentLog {
   Index original() const { return replaying_ ? recent_.front().number : kNone; }
 
   /// Of the current component: the next symbol that was recorded.
-  Index next() { return at_ < symbols_.size() ? symbols_[at_++] : kNone; }
+  Index next() { return at_ < size_ ? symbols_[at_++] : kNone; }
 
   void add(Index symbol) {
-    if (used_) symbols_.push_back(symbol);
+    if (!used_) return;
+    if (size_ == symbols_.size()) symbols_.resize(std::max<size_t>(256, 2 * size_));
+    symbols_[size_++] = symbol;
   }
 
   /// Components that can still be referred to.
@@ -63,7 +65,8 @@ class ComponentLog {
   bool replaying_ = false;
   Index components_ = 0;
   size_t at_ = 0;
-  std::vector<Index> symbols_;
+  std::vector<Index> symbols_;  // the first size_ are in use
+  size_t size_ = 0;
   std::vector<Entry> recent_;
   Bit copy_;
   NumberModel rank_;

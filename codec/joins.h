@@ -31,8 +31,9 @@ class JoinCandidates {
     for (const Index neighbor : neighbors) {
       if (neighbor >= umbrella) continue;
       starts_ = false;
-      look(umbrella, neighbor);
+      if (umbrellas_[mesh_.vertices[neighbor]] > 1) look(umbrella, neighbor);
     }
+    if (found_ == 0 && !lone_) return;
     for (const Index neighbor : neighbors) {
       if (neighbor < umbrella) settle(mesh_.vertices[neighbor]);
     }

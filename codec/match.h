@@ -24,15 +24,19 @@ class MatchModel {
   static constexpr Index kNoSymbol = 255;
 
   MatchModel(bool used, MatchMemory& memory) : used_(used), memory_(memory) {
-    if (!used || (!positions_.empty() && past_ <= kMostPast)) return;
-    positions_.assign(size_t{1} << kTableBits, 0);
-    past_ = 0;
+    std::vector<Index>& positions = memory_->positions;
+    if (used && (positions.empty() || memory_->past > kMostPast)) {
+      positions.assign(size_t{1} << kTableBits, 0);
+      memory_->past = 0;
+    }
+    positions_ = positions.data();
+    past_ = memory_->past;
   }
-  ~MatchModel() { past_ += static_cast<Index>(size_); }
+  ~MatchModel() { memory_->past += static_cast<Index>(size_); }
 
   /// The symbol that the match expects next, or kNoSymbol. Symbols are valences (0 for a split) or, plus 128, degrees
   /// (1 for a dummy face), each up to 100.
-  Index expected() const { return length_ == 0 ? kNoSymbol : history_[position_]; }
+  Index expected() const { return expected_; }
 
   /// How far the match reaches back, in 8 steps; 0 without a match.
   int lengthClass() const { return kLengthClass[std::min(length_, kLongest)]; }
@@ -46,19 +50,23 @@ class MatchModel {
 
  private:
   [[gnu::noinline]] void note(Index symbol) {
-    if (length_ > 0 && history_[position_] == symbol) {
-      ++position_;
-      if (length_ < 65535) ++length_;
-    } else {
-      length_ = 0;
-    }
-    if (size_ == history_.size()) history_.resize(std::max<size_t>(256, 2 * size_));
+    if (size_ == room_) grow();
     history_[size_++] = static_cast<uint8_t>(symbol);
     key_ = (key_ << 8 | (symbol + 1)) & 0xFFFFFFFFFFFFu;
+    length_ = symbol == expected_ ? std::min(length_ + 1, 65535) : 0;
+    ++position_;
     if (size_ < kLeast) return;
     Index& latest = positions_[key_ * 0x9E3779B97F4A7C15u >> (64 - kTableBits)];
     if (length_ == 0 && latest > past_) find(latest - past_);
     latest = past_ + static_cast<Index>(size_);
+    expected_ = length_ == 0 ? kNoSymbol : history_[position_];
+  }
+
+  [[gnu::noinline]] void grow() {
+    std::vector<uint8_t>& history = memory_->history;
+    history.resize(std::max<size_t>({256, history.size(), 2 * size_}));
+    history_ = history.data();
+    room_ = history.size();
   }
 
   static constexpr int kTableBits = 13;
@@ -92,10 +100,11 @@ class MatchModel {
   Index position_ = 0;
   int length_ = 0;
   Borrowed<MatchMemory> memory_;
-  std::vector<uint8_t>& history_ = memory_->history;  // the first size_ are in use
-  size_t size_ = 0;
-  std::vector<Index>& positions_ = memory_->positions;
-  Index& past_ = memory_->past;
+  uint8_t* history_ = nullptr;
+  size_t size_ = 0, room_ = 0;  // of the history
+  Index* positions_ = nullptr;
+  Index past_ = 0;
+  Index expected_ = kNoSymbol;
   std::array<Slot, 16> slots_;
 };
 

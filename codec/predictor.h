@@ -121,15 +121,15 @@ class Predictor {
 
   /// Codes one decision.
   template <class Port>
-  [[gnu::always_inline]] bool code(Port& port, Selectors selectors, bool value) {
-    if constexpr (kMixes) {
-      return mixed<false>(port, selectors, nullptr, 0, value);
-    } else {
-      Slot& slot = line_[0]->slot[selectors.node];
-      const bool bit = port.code(slot.probability(), value);
-      slot.update(bit);
-      return bit;
-    }
+  bool code(Port& port, Selectors selectors, bool value) requires(kMixes) {
+    return mixed<false>(port, selectors, nullptr, 0, value);
+  }
+  template <class Port>
+  [[gnu::always_inline]] bool code(Port& port, Selectors selectors, bool value) requires(!kMixes) {
+    Slot& slot = line_[0]->slot[selectors.node];
+    const bool bit = port.code(slot.probability(), value);
+    slot.update(bit);
+    return bit;
   }
 
   /// Likewise, with a slot that has its own opinion. `match_length` 0 to 7.

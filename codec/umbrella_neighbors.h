@@ -29,13 +29,17 @@ class UmbrellaNeighbors {
   // An edge belongs to its first corner.
   template <class Visit>
   static void forEdges(const Connectivity& mesh, Visit visit) {
+    const Index* const twins = mesh.twins.data();
+    const Index* const umbrellas = mesh.umbrellas.data();
     Index first = 0;
     for (const Index degree : mesh.face_degrees) {
-      for (Index corner = first; corner < first + degree; ++corner) {
-        const Index next = corner + 1 == first + degree ? first : corner + 1;
-        if (mesh.twins[corner] > corner) visit(mesh.umbrellas[corner], mesh.umbrellas[next]);
+      if (degree == 0) continue;
+      const Index last = first + degree - 1;
+      for (Index corner = first; corner < last; ++corner) {
+        if (twins[corner] > corner) visit(umbrellas[corner], umbrellas[corner + 1]);
       }
-      first += degree;
+      if (twins[last] > last) visit(umbrellas[last], umbrellas[first]);
+      first = last + 1;
     }
   }
 

@@ -126,10 +126,17 @@ class Walk : public SplitBoundary<Script> {
     return {true, Base::template leave<kAnyReach>(face.stretch, face.current, face)};
   }
 
+  // Whether usual faces have texts of their own. Where a program's size counts more, there is one for all.
+#if defined(TUTTE_COMPACT)
+  static constexpr bool kUsualFaces = false;
+#else
+  static constexpr bool kUsualFaces = true;
+#endif
+
   // One more face, of which choose() told where.
   [[gnu::always_inline]] Attached attach(Face& face) {
     script_.start(*face.start);
-    if (face.second->free_slots != 0) {
+    if (kUsualFaces && face.second->free_slots != 0) {
       if (face.start->free_slots != 0) return attachWith<0>(face);
       const Gap& prev = *face.start->prev;
       if (prev.free_slots > 1 && &prev != face.second) {
