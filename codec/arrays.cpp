@@ -62,6 +62,12 @@ class TriangleWriter {
         wedges_(mesh.wedges.empty() ? mesh.polygons.corners.data() : mesh.wedges.data()),
         starts_(triangleStarts(mesh.triangulation)) {}
 
+  /// Indices in all.
+  size_t size() const {
+    const Triangulation& triangles = mesh_.triangulation;
+    return triangles.counts.empty() ? mesh_.polygons.corners.size() : triangles.corners.size();
+  }
+
   /// Writes the triangles of `faces` to `out`, and tells whether FB_ngon_encoding holds.
   bool write(std::span<const Index> faces, Index*& out) {
     apexes_.resize(faces.size());
@@ -80,6 +86,7 @@ class TriangleWriter {
  private:
   /// The first corner that all triangles of the face share; kNone if they are no fan.
   Index fanApex(Index face) {
+    if (mesh_.triangulation.counts.empty()) return 0;
     if (const Index apex = plainFanApex(face); apex != kNone) return apex;
     const Polygon polygon = polygons_[face];
     const Index count = mesh_.triangulation.counts[face];
@@ -157,7 +164,7 @@ TriangleArray triangleIndices(const ArraySource& mesh) {
   const PolygonOrder order(mesh);
   TriangleWriter writer(mesh);
   TriangleArray array;
-  array.values.resize(mesh.triangulation.corners.size());
+  array.values.resize(writer.size());
   Index* out = array.values.data();
   for (Index g = 0; g < mesh.group_count; ++g) {
     const auto faces =
@@ -177,7 +184,7 @@ DerivedArray polygonIndexOffsets(const ArraySource& mesh) {
   forEachGroup(order, array, [&](Index face) {
     if (array.values.size() == array.group_starts.back()) offset = 0;
     array.values.push_back(offset);
-    offset += 3 * mesh.triangulation.counts[face];
+    offset += 3 * mesh.triangleCount(face);
   });
   return array;
 }

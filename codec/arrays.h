@@ -25,8 +25,9 @@ struct ArraySource {
   std::span<const Index> groups;  ///< per face; empty: all 0
   Index group_count = 1;
   std::span<const Index> ring_owners;  ///< per face; empty: no interior rings
-  const Triangulation& triangulation;  ///< given for all faces
+  const Triangulation& triangulation;  ///< given for all faces; empty: these are triangles
 
+  Index triangleCount(Index face) const { return triangulation.counts.empty() ? 1 : triangulation.counts[face]; }
   Index wedgeOf(Index corner) const { return wedges.empty() ? polygons.corners[corner] : wedges[corner]; }
 };
 

@@ -100,6 +100,12 @@ const DerivedArray& derivedOf(tutte_mesh& mesh, uint32_t array) {
   return *derived;
 }
 
+// Triangles that are their own triangulation are listed when they are first asked for.
+const Triangulation& triangulationOf(PayloadMesh& mesh) {
+  if (mesh.triangulation.counts.empty()) mesh.triangulation = fanTriangulation(mesh.polygons, {});
+  return mesh.triangulation;
+}
+
 std::span<const Index> indicesOf(tutte_mesh& mesh, uint32_t array) {
   switch (array) {
     case TUTTE_FACE_DEGREES: return mesh.mesh.polygons.face_degrees;
@@ -114,8 +120,8 @@ std::span<const Index> indicesOf(tutte_mesh& mesh, uint32_t array) {
     case TUTTE_WEDGES: return mesh.mesh.wedges;
     case TUTTE_GROUPS: return mesh.mesh.groups;
     case TUTTE_RING_OWNERS: return mesh.mesh.ring_owners;
-    case TUTTE_TRIANGLE_COUNTS: return mesh.mesh.triangulation.counts;
-    case TUTTE_TRIANGLE_CORNERS: return mesh.mesh.triangulation.corners;
+    case TUTTE_TRIANGLE_COUNTS: return triangulationOf(mesh.mesh).counts;
+    case TUTTE_TRIANGLE_CORNERS: return triangulationOf(mesh.mesh).corners;
     default: return derivedOf(mesh, array).values;
   }
 }

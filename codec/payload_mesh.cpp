@@ -76,11 +76,12 @@ bool isPlain(const PayloadMesh& mesh) {
   return mesh.connectivity.flipped.empty() && mesh.connectivity.vertices.empty();
 }
 
-/// The polygons' triangles, if they are not given.
+/// The polygons' triangles, if they are not given and not the polygons themselves.
 Error completeTriangles(PayloadMesh& mesh, bool given) {
-  if (!given) mesh.triangulation = fanTriangulation(mesh.polygons, mesh.ring_owners);
-  const bool as_claimed = mesh.triangulation.corners.size() == uint64_t{3} * mesh.counts.triangles;
-  return as_claimed ? Error::kNone : Error::kCountMismatch;
+  const bool plain = !given && mesh.ring_owners.empty() && onlyTriangles(mesh.polygons.face_degrees);
+  if (!given && !plain) mesh.triangulation = fanTriangulation(mesh.polygons, mesh.ring_owners);
+  const size_t corners = plain ? mesh.polygons.corners.size() : mesh.triangulation.corners.size();
+  return corners == uint64_t{3} * mesh.counts.triangles ? Error::kNone : Error::kCountMismatch;
 }
 
 struct Step {

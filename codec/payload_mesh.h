@@ -25,7 +25,7 @@ struct PayloadMesh {
   std::vector<Index> wedges;         ///< per corner; empty: the vertex
   std::vector<Index> groups;         ///< per face; empty: all 0
   std::vector<Index> ring_owners;    ///< per face; empty: no interior rings
-  Triangulation triangulation;       ///< of all faces
+  Triangulation triangulation;       ///< of all faces; empty: these are triangles
 
   /// A view of the mesh, for the arrays that derive from it.
   ArraySource arraySource() const;
@@ -49,7 +49,7 @@ Result<PayloadMesh, PayloadFailure> decodePayloadMesh(const PayloadView& payload
                                                       Decoder& decoder);
 
 /// The same in two steps, for those who want few things in memory at once. First everything that is in the sections:
-/// `polygons`, `coded_corners`, `wedges` and, where it is not given, `triangulation` stay empty.
+/// `polygons`, `coded_corners`, `wedges` and, where no section gives it, `triangulation` stay empty.
 Result<PayloadMesh, PayloadFailure> decodeSections(const PayloadView& payload, const Limits& limits, Decoder& decoder);
 
 /// Fills in what decodeSections() left out, but for `coded_corners`, and gives up `connectivity` and `seams`. May fail

@@ -173,7 +173,7 @@ std::vector<Index> verticesOf(const Connectivity& mesh) {
 
 Seams withoutSeams(const Connectivity& mesh, Index attribute_count) {
   Seams seams;
-  seams.wedges = verticesOf(mesh);
+  if (!mesh.vertices.empty()) seams.wedges = verticesOf(mesh);
   seams.wedge_count = seams.vertex_count = mesh.vertex_count;
   seams.attribute_seams.resize(attribute_count);
   return seams;

@@ -18,7 +18,7 @@ struct ValueView {
 
 /// The wedge structure, in coded order (codec/wedges.h).
 struct Seams {
-  std::vector<Index> wedges;  ///< per coded corner
+  std::vector<Index> wedges;  ///< per coded corner; empty: its umbrella
   Index wedge_count = 0;
   /// Per coded corner: its vertex, in a welded mesh, whose connectivity has one vertex (called a *point* then) for
   /// several in the same place. Empty otherwise: vertices are those of the connectivity.

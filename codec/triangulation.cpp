@@ -15,23 +15,18 @@ namespace {
 /// its end? In a regular grid all diagonals are parallel, so those of neighbours touch opposite ends.
 class DiagonalModel {
  public:
-  DiagonalModel(const Connectivity& mesh, const PolygonTable& polygons)
-      : mesh_(mesh), polygons_(polygons), diagonal_(mesh.face_degrees.size(), kUnknown), face_of_(mesh.twins.size()) {
-    Index corner = 0;
-    for (Index face = 0; face < polygons.size(); ++face) {
-      for (Index i = 0; i < mesh.face_degrees[face]; ++i) face_of_[corner++] = face;
-    }
-  }
+  explicit DiagonalModel(const Connectivity& mesh) : mesh_(mesh), touched_(mesh.twins.size(), kUnknown) {}
 
-  /// The lower of the two corners (0 or 1) that the diagonal of quad `face` joins. Flipping a quad does not change it.
+  /// The lower of the two corners (0 or 1) that the diagonal of a quad joins. Flipping a quad does not change it.
   template <class Port>
-  Index code(Port& port, Index face, Index first_corner, Index apex) {
+  Index code(Port& port, Index first_corner, Index apex) {
     std::array<int, 2> votes{};
     for (Index i = 0; i < 4; ++i) count(first_corner, i, votes);
     const int context = std::min(votes[0], 2) * 3 + std::min(votes[1], 2);
     const bool diagonal = models_[context * 2 + last_wrong_].code(port, apex != 0);
     last_wrong_ = diagonal != (votes[1] > votes[0]);
-    return diagonal_[face] = diagonal;
+    for (Index i = 0; i < 4; ++i) touched_[first_corner + i] = (i & 1) == diagonal;
+    return diagonal;
   }
 
  private:
@@ -39,17 +34,14 @@ class DiagonalModel {
 
   void count(Index first_corner, Index i, std::array<int, 2>& votes) const {
     const Index twin = mesh_.twins[first_corner + i];
-    if (twin == kNone) return;
-    const Index neighbour = face_of_[twin];
-    if (diagonal_[neighbour] == kUnknown) return;
-    const bool touches_end = ((twin - polygons_.firstCorner(neighbour)) & 1) == diagonal_[neighbour];
+    if (twin == kNone || touched_[twin] == kUnknown) return;
+    const bool touches_end = touched_[twin] != 0;
     ++votes[(i & 1) ^ (touches_end ? 0 : 1)];
   }
 
   const Connectivity& mesh_;
-  const PolygonTable& polygons_;
-  std::vector<uint8_t> diagonal_;  ///< per face; kUnknown unless it is a quad that was coded as a fan
-  std::vector<Index> face_of_;
+  std::vector<uint8_t>
+      touched_;  ///< per corner: by a diagonal; kUnknown unless its face is a quad that was coded as a fan
   std::array<Bit, 18> models_;
   bool last_wrong_ = false;
 };
@@ -58,16 +50,15 @@ class DiagonalModel {
 template <class Port>
 class TriangulationScript {
  public:
-  TriangulationScript(Port& port, const Connectivity& mesh, const PolygonTable& polygons)
-      : port_(port), diagonals_(mesh, polygons) {}
+  TriangulationScript(Port& port, const Connectivity& mesh) : port_(port), diagonals_(mesh) {}
 
   /// Are there lists among polygons without holes? To be coded first.
   void header(bool lists) { lists_ = port_.code(32768, lists); }
 
-  void polygon(Index face, const Polygon& polygon, Shape& shape) {
+  void polygon(const Polygon& polygon, Shape& shape) {
     shape.kind = kindOf(polygon, shape.kind);
     if (shape.kind == Kind::kFan) {
-      shape.apex = fan(face, polygon.exterior, shape.apex);
+      shape.apex = fan(polygon.exterior, shape.apex);
     } else if (shape.kind == Kind::kTree) {
       tree(polygon.exterior.degree, shape.triangles);
     }
@@ -88,9 +79,9 @@ class TriangulationScript {
     return fan_.code(port_, kind == Kind::kFan) ? Kind::kFan : Kind::kTree;
   }
 
-  Index fan(Index face, const Ring& ring, Index apex) {
+  Index fan(const Ring& ring, Index apex) {
     if (ring.degree == 3) return 0;
-    if (ring.degree == 4) return diagonals_.code(port_, face, ring.first, apex);
+    if (ring.degree == 4) return diagonals_.code(port_, ring.first, apex);
     return elsewhere_.code(port_, apex != 0) ? 1 + port_.uniform(ring.degree - 1, apex - 1) : 0;
   }
 
@@ -172,11 +163,16 @@ Result<Survey> survey(const PolygonTable& polygons, size_t face_count, const Tri
   return result;
 }
 
+/// The corners of the triangles of polygons without holes.
+size_t expectedCorners(size_t corners, size_t faces) { return 3 * (corners - std::min(corners, 2 * faces)); }
+
 /// Appends triangles to the result.
 class Output {
  public:
-  Output(Triangulation& triangulation, size_t face_count) : triangulation_(triangulation) {
+  /// `expected` corners.
+  Output(Triangulation& triangulation, size_t face_count, size_t expected) : triangulation_(triangulation) {
     triangulation_.counts.resize(face_count);
+    triangulation_.corners.reserve(expected);
   }
 
   void fan(Index face, const Ring& ring, Index apex) {
@@ -184,7 +180,16 @@ class Output {
       const Index at = apex + i;
       return ring.first + (at < ring.degree ? at : at - ring.degree);
     };
-    for (Index i = 1; i + 1 < ring.degree; ++i) triangle(face, {corner(0), corner(i), corner(i + 1)});
+    if (ring.degree < 3) return;
+    const size_t begin = triangulation_.corners.size(), count = ring.degree - 2;
+    triangulation_.counts[face] = static_cast<Index>(count);
+    triangulation_.corners.resize(begin + 3 * count);
+    Index* out = &triangulation_.corners[begin];
+    for (Index i = 1; i + 1 < ring.degree; ++i, out += 3) {
+      out[0] = corner(0);
+      out[1] = corner(i);
+      out[2] = corner(i + 1);
+    }
   }
 
   void triangle(Index face, const Triangle& corners) {
@@ -199,14 +204,17 @@ class Output {
 /// Decodes polygon by polygon, never more than `max_triangles` in all.
 class Decoder {
  public:
-  Decoder(RangeReader& port, const Connectivity& mesh, const PolygonTable& polygons, Index max_triangles,
-          Triangulation& result)
-      : port_(port), script_(port, mesh, polygons), output_(result, mesh.face_degrees.size()), left_(max_triangles) {
+  Decoder(RangeReader& port, const Connectivity& mesh, Index max_triangles, Triangulation& result)
+      : port_(port),
+        script_(port, mesh),
+        output_(result, mesh.face_degrees.size(),
+                std::min(size_t{3} * max_triangles, expectedCorners(mesh.umbrellas.size(), mesh.face_degrees.size()))),
+        left_(max_triangles) {
     script_.header(false);
   }
 
   Error polygon(Index face, const Polygon& polygon) {
-    script_.polygon(face, polygon, shape_);
+    script_.polygon(polygon, shape_);
     if (shape_.kind == Kind::kList) return list(face, polygon);
     if (polygon.exterior.degree - 2 > left_) return Error::kLimitExceeded;
     left_ -= polygon.exterior.degree - 2;
@@ -245,8 +253,7 @@ class Decoder {
 
 Triangulation fanTriangulation(PolygonView mesh, std::span<const Index> ring_owners) {
   Triangulation result;
-  Output output(result, mesh.face_degrees.size());
-  result.corners.reserve(3 * mesh.corners.size() - std::min(3 * mesh.corners.size(), 6 * mesh.face_degrees.size()));
+  Output output(result, mesh.face_degrees.size(), expectedCorners(mesh.corners.size(), mesh.face_degrees.size()));
   Index first = 0;
   for (Index face = 0; face < mesh.face_degrees.size(); ++face) {
     const Index degree = mesh.face_degrees[face];
@@ -267,7 +274,7 @@ Result<std::optional<std::vector<uint8_t>>> encodeTriangulation(const Connectivi
   if (found->all_default) return std::optional<std::vector<uint8_t>>{};
 
   RangeWriter port;
-  TriangulationScript<RangeWriter> script(port, mesh, polygons);
+  TriangulationScript<RangeWriter> script(port, mesh);
   script.header(found->lists);
   Input input(triangulation);
   Shape shape;
@@ -277,7 +284,7 @@ Result<std::optional<std::vector<uint8_t>>> encodeTriangulation(const Connectivi
     if (polygons.isHole(face) || !polygon.drawable()) continue;
     (void)input.read(polygon, triangulation.counts[face], shape.triangles);
     finder.classify(polygon);
-    script.polygon(face, polygon, shape);
+    script.polygon(polygon, shape);
     if (shape.kind != Kind::kList) continue;
     script.listLength(triangulation.counts[face]);
     for (Triangle& t : shape.triangles) script.listTriangle(polygon.corner_count, t);
@@ -290,7 +297,7 @@ Result<Triangulation> decodeTriangulation(const Connectivity& mesh, std::span<co
   const PolygonTable polygons(mesh.face_degrees, ring_owners);
   RangeReader port(bytes);
   Triangulation result;
-  Decoder decoder(port, mesh, polygons, max_triangles, result);
+  Decoder decoder(port, mesh, max_triangles, result);
   for (Index face = 0; face < mesh.face_degrees.size(); ++face) {
     const Polygon polygon = polygons[face];
     if (polygons.isHole(face) || !polygon.drawable()) continue;

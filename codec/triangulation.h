@@ -11,11 +11,19 @@
 
 namespace tutte {
 
-/// Triangles of every polygon, in face order. Empty `counts` means: none given, choose.
+/// Triangles of every polygon, in face order. Empty `counts` means: none given, choose. What is decoded has none only
+/// where all faces are triangles.
 struct Triangulation {
   std::vector<Index> counts;   ///< per face: its triangles; 0 for interior rings (their exterior ring has them)
   std::vector<Index> corners;  ///< three per triangle: indices into Polygons::corners
 };
+
+/// No face has another degree than 3.
+inline bool onlyTriangles(std::span<const Index> face_degrees) {
+  Index others = 0;  // without decisions, so that compilers make vectors of it
+  for (const Index degree : face_degrees) others |= degree ^ 3;
+  return others == 0;
+}
 
 /// Every polygon as a fan from its first corner; interior rings (ring_owners[face] != kNone; the span may be empty) and
 /// faces of degree below 3 have no triangles. Holes stay covered: a mesh with rings needs a triangulator.

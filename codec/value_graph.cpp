@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "codec/triangulation.h"
+
 namespace tutte {
 namespace {
 
@@ -61,7 +63,7 @@ ValueGraph::ValueGraph(const Connectivity& mesh, std::vector<Index> sites, Index
 // False when there are faces round which there is no way.
 bool ValueGraph::listShapes(std::span<const Index> face_degrees) {
   constexpr Index kMostStep = 2047;
-  if (std::ranges::all_of(face_degrees, [](Index degree) { return degree == 3; })) return true;
+  if (onlyTriangles(face_degrees)) return true;
   const auto shapeOf = [](Index back, Index forth, Index degree) {
     return back << 20 | (forth & 0xFFF) << 8 | std::min(degree, AnyFaces::kMostDegree);
   };
@@ -94,13 +96,18 @@ void ValueGraph::dropSeamTwins() {
 // An umbrella is one fan.
 void ValueGraph::findFirsts() {
   starts_.assign(site_count_, kNone);
-  const auto counts = [&](Index corner) { return shapes_.empty() || degree(corner) >= 3; };
-  for (Index c = cornerCount(); c-- > 0;) {
-    if (counts(c)) starts_[sites_[c]] = c;
-  }
-  for (Index c = 0; c < cornerCount(); ++c) {
-    if (twins_[c] == kNone && counts(c)) starts_[sites_[c]] = c;
-  }
+  Index open = 0;  // without decisions, so that compilers make vectors of it
+  for (const Index twin : twins_) open |= twin == kNone;
+  const auto find = [&](auto counts) {
+    for (Index c = cornerCount(); c-- > 0;) {
+      if (counts(c)) starts_[sites_[c]] = c;
+    }
+    for (Index c = 0; open != 0 && c < cornerCount(); ++c) {
+      if (twins_[c] == kNone && counts(c)) starts_[sites_[c]] = c;
+    }
+  };
+  if (shapes_.empty()) return find([](Index) { return true; });
+  find([faces = any()](Index corner) { return faces.degree(corner) >= 3; });
 }
 
 // Fan by fan. Of inconsistent twins, too, nothing is listed twice.

@@ -97,12 +97,21 @@ void toFractions(const Attribute& attribute, const AttributeCoding& coding, Plan
   });
 }
 
-void dequantise(const Plane& in, const AttributeCoding& coding, Attribute& out) {
-  const double steps = largest(coding.bits);
-  for (size_t i = 0; i < in.values.size(); ++i) {
-    const double offset = in.values[i] * double{coding.range} / steps;
-    storeFloat(&out.data[4 * i], static_cast<float>(double{coding.origin[i % out.components]} + offset));
+/// Stores make(number, component) for each number.
+template <class Make>
+void storeFloats(const Plane& in, Attribute& out, Make make) {
+  uint8_t* data = out.data.data();
+  const size_t components = out.components;
+  for (size_t i = 0; i < in.values.size(); i += components) {
+    for (size_t c = 0; c < components; ++c, data += 4) storeFloat(data, make(in.values[i + c], c));
   }
+}
+
+void dequantise(const Plane& in, const AttributeCoding& coding, Attribute& out) {
+  const double steps = largest(coding.bits), range = coding.range;
+  storeFloats(in, out, [=, origin = coding.origin](int32_t number, size_t c) {
+    return static_cast<float>(double{origin[c]} + number * range / steps);
+  });
 }
 
 void fromOctahedron(std::span<const Plane> planes, const AttributeCoding& coding, Attribute& out) {
@@ -183,18 +192,19 @@ void toGrid(const Attribute& attribute, const AttributeCoding& coding, Plane& ou
 }
 
 void fromGrid(const Plane& in, const AttributeCoding& coding, Attribute& out) {
-  for (size_t i = 0; i < in.values.size(); ++i) {
-    const size_t c = i % out.components;
-    const double number = in.values[i];
-    const double offset = (number + coding.first[c]) * coding.step;
-    storeFloat(&out.data[4 * i], static_cast<float>(double{coding.origin[c]} + offset));
-  }
+  const double step = coding.step;
+  storeFloats(in, out, [=, origin = coding.origin, first = coding.first](int32_t number, size_t c) {
+    return static_cast<float>(double{origin[c]} + (double(number) + first[c]) * step);
+  });
 }
 
 bool inRange(const Plane& plane, Index wedge_count) {
-  return plane.values.size() == size_t{wedge_count} * plane.components &&
-         std::all_of(plane.values.begin(), plane.values.end(),
-                     [&](int32_t value) { return value >= 0 && value <= plane.max; });
+  if (plane.values.size() != size_t{wedge_count} * plane.components) return false;
+  uint32_t signs = 0;  // without decisions, so that compilers make vectors of it
+  for (const int32_t value : plane.values) {
+    signs |= static_cast<uint32_t>(value) | (static_cast<uint32_t>(plane.max) - static_cast<uint32_t>(value));
+  }
+  return signs >> 31 == 0;
 }
 
 }  // namespace

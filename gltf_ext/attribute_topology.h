@@ -6,9 +6,10 @@
 
 namespace tutte {
 
-/// A view: `connectivity` and `seams` must outlive it.
+/// A view: `connectivity` and `seams` must outlive it; they must be an encoder's or a decoder's.
 inline AttributeTopology attributeTopology(const Connectivity& connectivity, const Seams& seams) {
-  AttributeTopology topology{connectivity, seams.wedges, seams.wedge_count, {}};
+  const std::vector<Index>& wedges = seams.wedges.empty() ? connectivity.umbrellas : seams.wedges;
+  AttributeTopology topology{connectivity, wedges, seams.wedge_count, {}, true};
   topology.seams.assign(seams.attribute_seams.begin(), seams.attribute_seams.end());
   return topology;
 }

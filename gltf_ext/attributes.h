@@ -22,6 +22,7 @@ struct AttributeTopology {
   /// Per attribute, per coded corner: 1 when the edge from that corner to the next of its face is a seam of the
   /// attribute (its values differ at an end). An empty span: no seams. Attribute 0 is POSITION and has none.
   std::vector<std::span<const uint8_t>> seams;
+  bool trusted = false;  ///< is as encoders and decoders make it; otherwise that is checked first
 };
 
 /// Codes the attributes (given in coded wedge order). The bytes decode with decodeAttributes() over an equal topology.

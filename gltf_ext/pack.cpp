@@ -80,7 +80,7 @@ class Packer {
     reorderAttributes();
     if (Outcome<Done> done = checkPositions(); !done) return done;
     decoded_seams_ = withoutSeams(encoded_.connectivity, static_cast<Index>(attributes_.size()));
-    if (!welded() && numbering_.parts == decoded_seams_.wedges) return Done{};
+    if (!welded() && numbering_.parts == verticesOf(encoded_.connectivity)) return Done{};
 
     std::vector<ValueView> values;
     for (const Attribute& attribute : attributes_) values.push_back({attribute.data, attribute.stride()});

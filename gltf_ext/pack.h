@@ -78,7 +78,8 @@ struct Packed {
 /// vertices and unused wedges.
 Outcome<Packed> pack(const PolygonMesh& mesh, const PackOptions& options = {});
 
-/// The mesh that pack() stored, in coded order; its triangulation is always given. Any bytes may be passed.
+/// The mesh that pack() stored, in coded order; its triangulation is given unless all faces are triangles. Any bytes
+/// may be passed.
 Outcome<PolygonMesh> unpack(std::span<const uint8_t> payload, const Limits& limits = {});
 
 /// The same, for one payload after the other.

@@ -54,7 +54,7 @@ struct PolygonMesh {
   Index group_count = 1;
   std::vector<Index> ring_owners;  ///< per face: kNone for a polygon; for an interior ring (a hole in a polygon, which
                                    ///< EXT_mesh_polygon allows) the face that is its exterior ring; empty: all kNone
-  Triangulation triangulation;
+  Triangulation triangulation;     ///< where unpack() leaves it empty, all faces are triangles
   std::vector<Attribute> attributes;
 
   Index wedgeOf(Index corner) const { return wedges.empty() ? polygons.corners[corner] : wedges[corner]; }

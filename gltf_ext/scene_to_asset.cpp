@@ -17,8 +17,9 @@ namespace {
 /// are in the payload all the same.
 std::vector<bool> drawnGroups(const PolygonMesh& mesh) {
   std::vector<bool> drawn(mesh.group_count);
-  for (size_t face = 0; face < mesh.triangulation.counts.size(); ++face) {
-    if (mesh.triangulation.counts[face] > 0) drawn[mesh.groups.empty() ? 0 : mesh.groups[face]] = true;
+  const ArraySource source = arraySourceOf(mesh);
+  for (Index face = 0; face < mesh.polygons.face_degrees.size(); ++face) {
+    if (source.triangleCount(face) > 0) drawn[mesh.groups.empty() ? 0 : mesh.groups[face]] = true;
   }
   return drawn;
 }

@@ -55,7 +55,7 @@ class SiteLayouts {
   bool whole() const {
     const Connectivity& mesh = topology_.connectivity;
     return mesh.vertices.empty() && topology_.wedge_count == mesh.vertex_count &&
-           std::ranges::equal(topology_.wedges, mesh.umbrellas);
+           (topology_.wedges.data() == mesh.umbrellas.data() || std::ranges::equal(topology_.wedges, mesh.umbrellas));
   }
 
   std::unique_ptr<SiteLayout> make(bool positions, std::span<const uint8_t> seams) const {
@@ -81,7 +81,7 @@ class SiteLayouts {
   std::vector<Entry> entries_;
 };
 
-/// True when the topology does not contradict itself.
+/// True when the topology does not contradict itself; trusted ones are not looked at.
 bool isConsistent(const AttributeTopology& topology);
 
 }  // namespace tutte

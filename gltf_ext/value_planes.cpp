@@ -60,11 +60,13 @@ void spreadValues(std::vector<int32_t>&& values, const WedgeSites& wedges, Plane
   }
 }
 
-/// Where each site is, by the positions of its wedges; empty when there are none to predict from.
-std::vector<int32_t> placesOf(std::span<const Plane> planes, size_t current, const WedgeSites& wedges) {
+/// Where each site is, by the positions of its wedges; empty when there are none to predict from. They may lie in
+/// `places`.
+std::span<const int32_t> placesOf(std::span<const Plane> planes, size_t current, const WedgeSites& wedges,
+                                  std::vector<int32_t>& places) {
   if (current == 0 || planes[0].kind != PlaneKind::kPosition) return {};
   if (wedges.site_of.empty()) return planes[0].values;
-  std::vector<int32_t> places(size_t{wedges.count} * 3);
+  places.resize(size_t{wedges.count} * 3);
   for (size_t w = 0; w < wedges.site_of.size(); ++w) {
     std::copy_n(&planes[0].values[w * 3], 3, &places[size_t{wedges.site_of[w]} * 3]);
   }
@@ -172,6 +174,7 @@ Outcome<std::vector<uint8_t>> encodeValuePlanes(const AttributeTopology& topolog
   if (!isConsistent(topology)) return Failure{FailureKind::kInvalid, "", "the attributes' topology contradicts itself"};
   if (topology.wedge_count == 0) return std::vector<uint8_t>();
   SiteLayouts layouts(topology);
+  std::vector<int32_t> scratch;
   ByteWriter out;
   for (size_t i = 0; i < planes.size(); ++i) {
     const Plane& plane = planes[i];
@@ -180,7 +183,7 @@ Outcome<std::vector<uint8_t>> encodeValuePlanes(const AttributeTopology& topolog
     if (values.empty() && layout.wedges.count > 0) {
       return Failure{FailureKind::kInvalid, "", "an attribute has two values where its seams allow one"};
     }
-    const std::vector<int32_t> places = placesOf(planes, i, layout.wedges);
+    const std::span<const int32_t> places = placesOf(planes, i, layout.wedges, scratch);
     writePlane({*layout.graph, places}, plane, values, profile, out);
   }
   return std::move(out).take();
@@ -190,10 +193,11 @@ bool decodeValuePlanes(const AttributeTopology& topology, std::span<const uint8_
   if (!isConsistent(topology)) return false;
   if (topology.wedge_count == 0) return bytes.empty();
   SiteLayouts layouts(topology);
+  std::vector<int32_t> scratch;
   ByteReader in(bytes);
   for (size_t i = 0; i < planes.size(); ++i) {
     SiteLayout& layout = layouts.get(planes[i].attribute);
-    const std::vector<int32_t> places = placesOf(planes, i, layout.wedges);
+    const std::span<const int32_t> places = placesOf(planes, i, layout.wedges, scratch);
     if (!readPlane({*layout.graph, places}, layout.wedges, in, planes[i])) return false;
   }
   return in.error() == Error::kNone && in.remaining() == 0;

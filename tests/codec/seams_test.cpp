@@ -122,7 +122,7 @@ TEST(Wedges, AreVerticesWhereThereAreNoSeams) {
     std::vector<Index> raw;
     for (Index c = 0; c < base.mesh.umbrellas.size(); ++c) raw.push_back(base.mesh.vertexOf(c) * 3 + 1);
     const PartNumbering numbering = numbered(base.mesh, raw);
-    EXPECT_EQ(numbering.parts, withoutSeams(base.mesh, 0).wedges) << base.name;
+    EXPECT_EQ(numbering.parts, verticesOf(base.mesh)) << base.name;
     EXPECT_EQ(numbering.order.size(), base.mesh.vertex_count);
   }
 }
@@ -163,7 +163,7 @@ TEST(Seams, AnyVerticesOfPointsComeBack) {
 
 TEST(Seams, CostNextToNothingWhereThereAreNone) {
   const Connectivity mesh = encode(shapes::quadTorus(50, 50).mesh)->connectivity;
-  std::vector<Index> wedges = withoutSeams(mesh, 0).wedges;
+  std::vector<Index> wedges = verticesOf(mesh);
   wedges.back() = mesh.vertex_count;
   EXPECT_LE(encodeSeams(mesh, {}, numbered(mesh, wedges).parts, {}).size(), 20u);
 }
@@ -194,7 +194,7 @@ TEST(Seams, GoldenBytes) {
   const Connectivity cube = inItsOwnOrder(shapes::cube().mesh);
   const std::vector<Index> apart = numbered(cube, overlays::wedgesByColour(cube, 0, 1, 0)).parts;
   EXPECT_EQ(encodeSeams(cube, {}, apart, {}), (Bytes{}));
-  std::vector<Index> one_more = withoutSeams(cube, 0).wedges;
+  std::vector<Index> one_more = verticesOf(cube);
   one_more[0] = 8;
   const std::vector<Index> cut = numbered(cube, one_more).parts;
   const Bytes data = {0, 1, 0, 0, 0, 0, 0, 0, 0};
