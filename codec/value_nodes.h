@@ -25,8 +25,8 @@ template <int C, class T, class F>
 /// A site whose value is known.
 template <int C>
 struct alignas(C == 4 ? 16 : 8) Node {
-  Vec<C, int32_t> value{};
-  Vec<C, int32_t> error{};  ///< how far the prediction was off, in 1/16; at most kLargestError
+  Vec<C, int32_t> value;
+  Vec<C, int32_t> error;  ///< how far the prediction was off, in 1/16; at most kLargestError
 };
 
 inline constexpr int32_t kLargestError = 1 << 20;
@@ -35,7 +35,9 @@ inline constexpr int32_t kLargestError = 1 << 20;
 template <int C>
 class Nodes {
  public:
-  explicit Nodes(Index sites) : nodes_(new Node<C>[sites]), picked_(new uint8_t[sites]) {}
+  explicit Nodes(Index sites)
+      : nodes_(std::make_unique_for_overwrite<Node<C>[]>(sites)),
+        picked_(std::make_unique_for_overwrite<uint8_t[]>(sites)) {}
 
   const Node<C>& operator[](Index site) const { return nodes_[site]; }
   /// A single parallelogram was its prediction.
