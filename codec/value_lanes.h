@@ -2,6 +2,7 @@
 // Sixteen 16-bit numbers at once. Vector code and scalar code give the same bits.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #if defined(__SSE2__)

@@ -2,6 +2,7 @@
 // The values that are known while others are coded.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
