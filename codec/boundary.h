@@ -126,22 +126,20 @@ class Boundary {
     for (const Gap* gap = face.head; gap != face.start; gap = gap->next) emitKnown(*gap, face);
   }
 
-  // The gaps that the face used up. `stop`: where those after the start end.
+  // The gaps that the face used up, in the order in which their numbers come again. `stop`: where those after the start
+  // end.
   template <int kReach>
   [[gnu::always_inline]] void release(const Face& face, const Gap* stop) {
     if (kReach == 1) gaps_.release(*face.start);
     if (kReach < kAnyReach) return;
+    if (face.start != face.head || face.closed) gaps_.release(*face.start);
     for (Gap* gap = face.second; gap != stop;) {
       Gap* const next = gap->next;
       gaps_.release(*gap);
       gap = next;
     }
-    if (face.closed) gaps_.release(*face.start);
-    for (Gap* gap = face.start; gap != face.head;) {
-      Gap* const prev = gap->prev;
-      gaps_.release(*gap);
-      gap = prev;
-    }
+    if (face.start == face.head) return;
+    for (Gap* gap = face.start->prev; gap != face.head; gap = gap->prev) gaps_.release(*gap);
   }
 
   // Always false, to be returned.
