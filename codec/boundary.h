@@ -28,6 +28,9 @@ class Boundary {
   static constexpr Index kDegree = Script::kDegree;
   static constexpr bool kGathers = Script::kGathers;
 
+  // Whether anybody asks gaps for more than slots and angles.
+  static constexpr bool kTells = kDegree == 0 || kGathers || Script::kSums;
+
   Boundary(Script& script, TieRule tie, size_t expected_corners, GapMemory& memory)
       : script_(script), gaps_(tie, memory), corners_(mesh_, expected_corners) {}
 
@@ -185,7 +188,7 @@ class Boundary {
     gap.next = &next;
     next.prev = &gap;
     gap.behind = face.dummy() ? kNone : static_cast<Index>(next_corner);
-    gap.degree_behind = face.dummy() ? 0 : face.degree();
+    if (kTells) gap.degree_behind = face.dummy() ? 0 : face.degree();
     if (kGathers) {
       gap.opposite_next = face.before_current;
       gap.met = (kFresh ? 0 : gap.met) + (Met{1} << 32) + next.valence;

@@ -219,13 +219,15 @@ class Walk : public SplitBoundary<Script> {
     }
     Gap& gap = gaps_.create();
     gap.umbrella = static_cast<Index>(umbrellas_++);
-    gap.valence = vertex.valence;
     gap.free_slots = vertex.valence - 1;
     gap.flat = flatAngle(vertex.valence);
-    gap.capped = static_cast<uint16_t>(std::min(vertex.valence, Index{14}));
-    gap.opposite_own = 0;
-    gap.angle = 0;
-    gap.dummy = false;
+    if (Base::kTells) {
+      gap.valence = vertex.valence;
+      gap.capped = static_cast<uint16_t>(std::min(vertex.valence, Index{14}));
+      gap.opposite_own = 0;
+      gap.angle = 0;
+      gap.dummy = false;
+    }
     if (face.current != nullptr) {
       Base::template closeBoundary<true>(gap, *face.current, face.corner - 1, face);
     } else {
