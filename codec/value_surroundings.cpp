@@ -42,8 +42,7 @@ template <class Faces>
   Lists& lists = *lists_;
   const size_t sides = gather(faces);
   if constexpr (!Faces::kAllTriangles) {
-    const int inside = lists.scaled.size() + lists.within.size();
-    if (inside == 1 || (inside == 0 && lists.across.size() < 2)) lookFar(faces, sides);
+    if (lists.scaled.size() + lists.within.size() + lists.across.size() == 0) lookFar(faces, sides);
     found.scaled = lists.scaled.take();
     found.within = lists.within.take();
     found.planes = lists.planes.take();
@@ -175,7 +174,7 @@ void SurroundingsFinder::addEdges(const Faces& faces, size_t side) {
   addEdge(graph_.site(faces.prev(prev)), b);
 }
 
-// Over the edges that are opposite or beside; weaker than what is within.
+// Over the edges that are opposite or beside: where there is nothing better.
 template <class Faces>
 void SurroundingsFinder::lookFar(const Faces& faces, size_t end) {
   const Sides& sides = lists_->sides;

@@ -91,7 +91,7 @@ class Surroundings:
         if len(members) > 1:
             self.spread = [max(abs(x[i] - members[0][i]) for x in members) for i in range(m)]
             return
-        offers, v = self.far(site), self.coder.values
+        offers, v = [] if members else self.far(site), self.coder.values
         if self.neighbours:
             offers.append((AROUND, [mean(16 * sum(v[s][i] for s in self.neighbours), len(self.neighbours))
                                     for i in range(m)]))
