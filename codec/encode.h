@@ -18,6 +18,8 @@ struct EncodeOptions {
   /// How long to search for choices that make fewer bytes: 0 not at all, 1 while it costs little, 2 as long as files
   /// are worth it, 3 as long as anybody might wait.
   int effort = 1;
+  /// Values will be coded vertex by vertex in the order of the walk: prefer one that suits them.
+  bool values_follow = false;
 };
 
 /// What the encoder made of one mesh.

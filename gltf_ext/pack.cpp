@@ -64,7 +64,9 @@ class Packer {
 
  private:
   Outcome<Done> connectivity() {
-    Result<Encoded> encoded = encode(polygons_, options_.connectivity);
+    EncodeOptions options = options_.connectivity;
+    options.values_follow = !mesh_.attributes.empty();
+    Result<Encoded> encoded = encode(polygons_, options);
     if (!encoded) return failureOf(encoded.error(), "connectivity");
     encoded_ = std::move(*encoded);
     packed_.splits = encoded_.splits;

@@ -146,6 +146,11 @@ void writePlane(const ValueSites& sites, const Plane& plane, std::span<const int
     format = bestOf(sites, std::array{echoing, format}, values, kMostTried);
   }
   if (!sites.graph.copies().empty()) format = bestOf(sites, withCopies(format, formats.front()), values, kNone);
+  if (profile == ValueProfile::kSmall) {  // where values are very regular, fewer contexts learn faster
+    ValueFormat quicker = format;
+    quicker.profile = ValueProfile::kDefault;
+    format = bestOf(sites, std::array{quicker, format}, values, kNone);
+  }
   ByteWriter bytes;
   encodeValues(sites, format, values, bytes);
   out.byte(headOf(format));
