@@ -19,8 +19,8 @@ template <class Visit>
 
 }  // namespace
 
-SurroundingsFinder::SurroundingsFinder(const ValueGraph& graph, bool want_edges)
-    : graph_(graph), want_edges_(want_edges), lists_(new Lists) {}
+SurroundingsFinder::SurroundingsFinder(const ValueGraph& graph, bool want_edges, bool far)
+    : graph_(graph), want_edges_(want_edges), far_(far), lists_(new Lists) {}
 
 void SurroundingsFinder::fill() {
   Lists& lists = *lists_;
@@ -42,7 +42,8 @@ template <class Faces>
   Lists& lists = *lists_;
   const size_t sides = gather(faces);
   if constexpr (!Faces::kAllTriangles) {
-    if (lists.scaled.size() + lists.within.size() + lists.across.size() == 0) lookFar(faces, sides);
+    const int inside = lists.scaled.size() + lists.within.size();
+    if ((inside > 0 ? inside : lists.across.size()) <= far_) lookFar(faces, sides);
     found.scaled = lists.scaled.take();
     found.within = lists.within.take();
     found.planes = lists.planes.take();
@@ -174,7 +175,7 @@ void SurroundingsFinder::addEdges(const Faces& faces, size_t side) {
   addEdge(graph_.site(faces.prev(prev)), b);
 }
 
-// Over the edges that are opposite or beside: where there is nothing better.
+// Over the edges that are opposite or beside; weaker than what is within.
 template <class Faces>
 void SurroundingsFinder::lookFar(const Faces& faces, size_t end) {
   const Sides& sides = lists_->sides;

@@ -38,8 +38,9 @@ struct Surroundings {
 /// surroundings have lower numbers on one side: their numbers are the order in which sites become known.
 class SurroundingsFinder {
  public:
-  /// Edges are listed only when they are wanted.
-  SurroundingsFinder(const ValueGraph& graph, bool want_edges);
+  /// Edges are listed only when they are wanted. Predictions from beyond the faces of a site are where it has no
+  /// parallelogram, and with `far`, where it has one.
+  SurroundingsFinder(const ValueGraph& graph, bool want_edges, bool far);
 
   /// The next site's, from 0 on; valid until the next call. There must be one. Known are the sites before it.
   const Surroundings& next() {
@@ -124,7 +125,7 @@ class SurroundingsFinder {
   bool known(Index site) const { return site < site_; }
 
   const ValueGraph& graph_;
-  const bool want_edges_;
+  const bool want_edges_, far_;
   Index site_ = 0;  // whose turn it is
   std::unique_ptr<Lists> lists_;
   std::array<Surroundings, kBatch> batch_;

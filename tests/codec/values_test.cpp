@@ -41,7 +41,7 @@ std::vector<uint8_t> bytesOf(const Sites& sites, const ValueFormat& format, std:
 TEST(Values, SurroundingsAreKnown) {
   for (const auto& [name, shape] : shapes::allShapes()) {
     const Sites sites(shape.mesh);
-    values::SurroundingsFinder finder(sites.graph, true);
+    values::SurroundingsFinder finder(sites.graph, true, true);
     for (Index i = 0; i < sites.graph.siteCount(); ++i) {
       const values::Surroundings& around = finder.next();
       ASSERT_EQ(around.site, i) << name;

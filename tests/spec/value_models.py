@@ -1,6 +1,8 @@
 """Streams and statistics of values: EXTENSION_SPEC.md, D.4.4, D.4.5 and D.4.8."""
 from models import Slot, clamp, require, squashed
 
+FAST, DEFAULT, SMALL = range(3)  # profiles
+
 
 def bit_length(x):
     return x.bit_length()

@@ -4,13 +4,12 @@ decode(mesh, sites, site_count, m, maximum, head, data, places) -> the numbers, 
 """
 from models import clamp, require
 from value_copies import Copies
-from value_models import (Chances, Classes, Lengths, MixedChance, ValueStream, bit_length, cut, log4, varint)
+from value_models import (FAST, SMALL, Chances, Classes, Lengths, MixedChance, ValueStream, bit_length, cut, log4, varint)
 from value_echoes import Echoes
 from value_geometry import Directions, Textures
 from value_sites import Graph
 from value_surroundings import WITHIN, Surroundings
 
-FAST, DEFAULT, SMALL = range(3)
 PLAIN, POINTS, TEXTURE, DIRECTION, LABEL = range(5)
 
 
