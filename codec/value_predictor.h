@@ -20,9 +20,9 @@
 namespace tutte::values {
 
 /// Up to `C` components in numbers of type `T` (value_nodes.h). Values lie in [0, max]. With `points`, three components
-/// are points of a surface, and the third is corrected towards its tangent plane. `fast` does without that, and without
-/// what a site's first components say about the others. `far`: see SurroundingsFinder. With `echoes`, values may come
-/// again (value_echoes.h), and with `copies`, components follow their originals (value_copies.h).
+/// are points of a surface, and the third is corrected towards its tangent plane. `fast` does without that, without
+/// most predictions from far away, and without what a site's first components say about the others. With `echoes`,
+/// values may come again (value_echoes.h), and with `copies`, components follow their originals (value_copies.h).
 template <class Port, int C, class T, class Guide>
 class SitePredictor {
  public:
@@ -31,7 +31,6 @@ class SitePredictor {
     int32_t max;
     bool points;
     bool fast;
-    bool far;
     bool echoes;
     bool copies;
   };
@@ -39,7 +38,7 @@ class SitePredictor {
   SitePredictor(Port& port, const ValueGraph& graph, std::span<const int32_t> places, const Options& options,
                 Residuals& residuals)
       : port_(port),
-        finder_(graph, Guide::kWantsEdges, options.far),
+        finder_(graph, Guide::kWantsEdges, !options.fast),
         nodes_(graph.siteCount()),
         stencil_(nodes_),
         guide_(graph, nodes_, places, options.max),

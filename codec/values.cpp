@@ -44,12 +44,11 @@ struct Run {
 
   template <int C, class T, class Guide>
   Error code() {
-    const bool points = format.kind == ValueKind::kPoints;
-    const bool fast = format.profile == ValueProfile::kFast, small = format.profile == ValueProfile::kSmall;
-    values::Residuals residuals(small, !fast);
+    const bool points = format.kind == ValueKind::kPoints, fast = format.profile == ValueProfile::kFast;
+    values::Residuals residuals(format.profile == ValueProfile::kSmall, !fast);
     SitePredictor<Port, C, T, Guide> predictor(
-        port, sites.graph, sites.places,
-        {format.components, format.max, points, fast, small, format.echoes, format.copies}, residuals);
+        port, sites.graph, sites.places, {format.components, format.max, points, fast, format.echoes, format.copies},
+        residuals);
     const Error error = everySite([&] { predictor.code(values); });
     if (error != Error::kNone) return error;
     return predictor.damaged() ? Error::kMalformed : Error::kNone;

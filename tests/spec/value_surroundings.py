@@ -1,6 +1,6 @@
 """What is known around a site: EXTENSION_SPEC.md, D.4.6."""
 from value_geometry import mean
-from value_models import SMALL
+from value_models import FAST
 
 POINTS = 1
 WITHIN, ACROSS, FACE, STRAIGHT, AROUND, LAST = range(6)
@@ -92,7 +92,7 @@ class Surroundings:
         if len(members) > 1:
             self.spread = [max(abs(x[i] - members[0][i]) for x in members) for i in range(m)]
             return
-        offers, v = self.far(site) if self.coder.profile == SMALL or not members else [], self.coder.values
+        offers, v = self.far(site) if self.coder.profile != FAST or not members else [], self.coder.values
         if self.neighbours:
             offers.append((AROUND, [mean(16 * sum(v[s][i] for s in self.neighbours), len(self.neighbours))
                                     for i in range(m)]))
