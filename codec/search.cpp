@@ -40,6 +40,7 @@ class Search {
     if (const Error error = tryFirst(); error != Error::kNone) return error;
     if (trials_left_ > 0) tryVariants();
     if (trials_left_ > 2 && !best_candidate_.header.degreesKnown()) tryDual();
+    if (options_.effort >= 2) tryMoreLines();
     trySeeds();
     while (best_candidate_.header.table_bits > mostTableBits(best_.bits() / 8)) {
       best_candidate_.header.table_bits = mostTableBits(best_.bits() / 8);
@@ -130,7 +131,6 @@ class Search {
       unmatched.header.match = false;
       attempt(std::move(unmatched));
     }
-    if (options_.effort >= 2) tryMoreLines();
   }
 
   // Fewer contexts share a line then; but a decoder has more to clear.
