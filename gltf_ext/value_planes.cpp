@@ -79,8 +79,9 @@ struct Trial {
   bool ranked = false;
 };
 
-/// What an encoder tries; the smallest is kept. On large meshes it is told from so many sites.
-constexpr Index kMostTried = 1024;
+/// What an encoder tries; the smallest is kept. On large meshes it is told from so many sites: positions show early
+/// what suits them, other attributes may change from part to part.
+constexpr Index kMostTried = 8192, kMostTriedPositions = 1024;
 
 std::vector<Trial> trialsFor(PlaneKind kind) {
   switch (kind) {
@@ -139,11 +140,12 @@ void writePlane(const ValueSites& sites, const Plane& plane, std::span<const int
   for (const Trial& trial : trialsFor(plane.kind)) {
     formats.push_back({plane.components, plane.max, profile, trial.kind, trial.ranked});
   }
-  ValueFormat format = bestOf(sites, formats, values, kMostTried);
+  const Index most = plane.kind == PlaneKind::kPosition ? kMostTriedPositions : kMostTried;
+  ValueFormat format = bestOf(sites, formats, values, most);
   if (repeats(values, plane.components)) {
     ValueFormat echoing = format;
     echoing.echoes = true;
-    format = bestOf(sites, std::array{echoing, format}, values, kMostTried);
+    format = bestOf(sites, std::array{echoing, format}, values, most);
   }
   if (!sites.graph.copies().empty()) format = bestOf(sites, withCopies(format, formats.front()), values, kNone);
   if (profile == ValueProfile::kSmall) {  // where values are very regular, fewer contexts learn faster
