@@ -13,7 +13,7 @@
 
 namespace tutte {
 
-/// The last three symbols of both streams, the newest in the lowest byte; valences and degrees up to 255.
+/// The last three symbols of both kinds, the newest in the lowest byte; valences and degrees up to 255.
 struct History {
   uint32_t valences = 0, degrees = 0;
 

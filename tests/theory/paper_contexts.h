@@ -9,7 +9,7 @@ namespace tutte::theory {
 
 /// Bytes of a mesh's connectivity with the paper's symbols.
 struct PaperBytes {
-  size_t both = 0;      ///< contexts for both streams: profile `paper`
+  size_t both = 0;      ///< contexts for both kinds of symbols: profile `paper`
   size_t valences = 0;  ///< for valences alone
   size_t degrees = 0;   ///< for degrees alone
   size_t neither = 0;   ///< one context per stream
