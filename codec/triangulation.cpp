@@ -40,8 +40,7 @@ class DiagonalModel {
   }
 
   const Connectivity& mesh_;
-  std::vector<uint8_t>
-      touched_;  ///< per corner: by a diagonal; kUnknown unless its face is a quad that was coded as a fan
+  std::vector<uint8_t> touched_;  ///< per corner: by a diagonal; kUnknown but in quads that were coded as fans
   std::array<Bit, 18> models_;
   bool last_wrong_ = false;
 };

@@ -160,7 +160,10 @@ class Walk : public SplitBoundary<Script> {
     if (kReach == kAnyReach) {
       const Gap* const stop = face.closed ? face.start : face.tail;
       for (const Gap* gap = face.second; gap != stop; gap = gap->next) emitKnown(*gap, face);
-      if (face.closed) return {finish<kReach>(face)};
+      if (face.closed) {
+        finishFace<kReach>(face);
+        return {true};
+      }
     }
     face.current = face.stretch = face.tail;
     face.before_tail = kReach == kAnyReach ? face.tail->prev : face.start;
@@ -195,7 +198,8 @@ class Walk : public SplitBoundary<Script> {
     if (kGathers) head.opposite_own = after_head;
     if (any_split && !finishSplits(face)) return {};
     Gap* const start = Base::template leave<kReach>(face.stretch, face.head, face);
-    return {finish<kReach>(face), start};
+    finishFace<kReach>(face);
+    return {true, start};
   }
 
   [[gnu::noinline]] Attached fillSplit(Face face) {
@@ -203,12 +207,10 @@ class Walk : public SplitBoundary<Script> {
     return error_ == Error::kNone ? fill<kAnyReach>(face, true) : Attached{};
   }
 
-  // Always true.
   template <int kReach>
-  [[gnu::always_inline]] bool finish(const Face& face) {
+  [[gnu::always_inline]] void finishFace(const Face& face) {
     Base::template release<kReach>(face, face.closed ? face.start : face.tail);
     corners_.setSize(face.corner);
-    return true;
   }
 
   // A vertex that nobody knew; becomes the current one.

@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "codec/triangulation.h"
 #include "gltf_ext/accessors.h"
 #include "gltf_ext/buffers.h"
 #include "gltf_ext/decompress.h"
@@ -200,8 +201,7 @@ class Compressor {
 
   PolygonNotation wishOf(const Json& primitive, const PrimitiveFaces& faces) const {
     const PolygonNotation found = notationOf(primitive, false);
-    const bool all_triangles = faces.ring_owners.empty() && std::all_of(faces.degrees.begin(), faces.degrees.end(),
-                                                                        [](Index degree) { return degree == 3; });
+    const bool all_triangles = faces.ring_owners.empty() && onlyTriangles(faces.degrees);
     if (all_triangles && found != PolygonNotation::kExt) return PolygonNotation::kTriangles;
     if (options_.polygons == PolygonOutput::kAuto) return found;
     switch (options_.polygons) {

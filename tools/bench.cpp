@@ -7,6 +7,7 @@
 #include "codec/decode.h"
 #include "codec/payload.h"
 #include "codec/spending.h"
+#include "codec/triangulation.h"
 #include "gltf_ext/compress.h"
 #include "gltf_ext/triangulate.h"
 #include "gltf_ext/welding.h"
@@ -168,10 +169,8 @@ Outcome<BenchFigures> measureMesh(const PolygonMesh& mesh, const BenchPlan& plan
 void addPaper(BenchFigures& figures, const Scene& scene) {
   if (scene.meshes.size() != 1) return;
   const Polygons& polygons = scene.meshes[0].mesh.polygons;
-  const bool all_triangles =
-      std::all_of(polygons.face_degrees.begin(), polygons.face_degrees.end(), [](Index degree) { return degree == 3; });
   const std::string stem = std::filesystem::path(figures.file).stem().string();
-  const auto rate = paperBitsPerVertex(stem, polygons.vertex_count, all_triangles);
+  const auto rate = paperBitsPerVertex(stem, polygons.vertex_count, onlyTriangles(polygons.face_degrees));
   if (!rate) return;
   figures.paper_bytes = static_cast<uint64_t>(std::lround(*rate * polygons.vertex_count / 8));
   figures.paper_counterpart = figures.ours.connectivity_bytes;
