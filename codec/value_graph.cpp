@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
+#include <optional>
 
 #include "codec/triangulation.h"
 
@@ -39,102 +39,72 @@ class Partition {
 
 }  // namespace
 
-ValueGraph::ValueGraph(const Connectivity& mesh, Index site_count)
-    : site_count_(site_count), sites_(mesh.umbrellas), twins_(mesh.twins), copies_(mesh.copies) {
-  listShapes(mesh.face_degrees) ? findFirsts() : listFans();
-}
-
-ValueGraph::ValueGraph(const Connectivity& mesh, std::vector<Index> sites, Index site_count)
-    : site_count_(site_count),
-      own_sites_(std::move(sites)),
-      sites_(own_sites_),
-      twins_(mesh.twins),
-      copies_(mesh.copies) {
-  const bool all_round = listShapes(mesh.face_degrees), umbrellas = std::ranges::equal(sites_, mesh.umbrellas);
-  if (umbrellas) {
-    sites_ = mesh.umbrellas;
-    own_sites_ = {};
-  } else {
-    dropSeamTwins();
+ValueGraph::ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count, bool parted)
+    : sites_(sites), twins_(mesh.twins), copies_(mesh.copies), starts_(site_count, kNone) {
+  Index counted = cornerCount();
+  if (!onlyTriangles(mesh.face_degrees)) {
+    shapes_ = faceShapes(mesh.face_degrees, sites_.size());
+    cutLargeFaces(mesh.face_degrees);
+    // Faces of degree below 3 come last.
+    for (size_t f = mesh.face_degrees.size(); f > 0 && mesh.face_degrees[f - 1] < 3; --f)
+      counted -= mesh.face_degrees[f - 1];
   }
-  umbrellas&& all_round ? findFirsts() : listFans();
+  if (parted) withFaces([&](const auto& faces) { cutSeams(faces); });
+  const bool umbrellas = sites_.data() == mesh.umbrellas.data() && own_twins_.empty();
+  umbrellas ? findFirstCorners(twins_.first(counted), sites_.first(counted), starts_) : listFans(mesh, counted);
 }
 
-// False when there are faces round which there is no way.
-bool ValueGraph::listShapes(std::span<const Index> face_degrees) {
-  constexpr Index kMostStep = 2047;
-  if (onlyTriangles(face_degrees)) return true;
-  const auto shapeOf = [](Index back, Index forth, Index degree) {
-    return back << 20 | (forth & 0xFFF) << 8 | std::min(degree, AnyFaces::kMostDegree);
-  };
-  shapes_.resize(sites_.size());
-  uint32_t* shape = shapes_.data();
-  bool all_round = true;
+// Makes a boundary of an edge.
+void ValueGraph::cut(Index corner) {
+  if (own_twins_.empty()) {
+    own_twins_.assign(twins_.begin(), twins_.end());
+    twins_ = own_twins_;
+  }
+  if (twins_[corner] != kNone) own_twins_[twins_[corner]] = kNone;
+  own_twins_[corner] = kNone;
+}
+
+void ValueGraph::cutLargeFaces(std::span<const Index> face_degrees) {
+  Index first = 0;
   for (const Index degree : face_degrees) {
-    if (degree == 0) continue;
-    all_round &= degree - 1 <= kMostStep;
-    const Index wrap = degree - 1 <= kMostStep ? degree - 1 : 0, step = degree > 1;
-    *shape++ = shapeOf(wrap, step, degree);
-    for (Index i = 2; i < degree; ++i) *shape++ = shapeOf(~0u, 1, degree);
-    if (degree > 1) *shape++ = shapeOf(~0u, 0u - wrap, degree);
+    if (degree > kMostWays) cut(first), cut(first + degree - 1);
+    first += degree;
   }
-  return all_round;
 }
 
-void ValueGraph::dropSeamTwins() {
+// At edges whose sides have different sites.
+template <class Faces>
+void ValueGraph::cutSeams(const Faces& faces) {
   for (Index c = 0; c < cornerCount(); ++c) {
     const Index twin = twins_[c];
-    if (twin == kNone || (site(twin) == site(next(c)) && site(next(twin)) == site(c))) continue;
-    if (own_twins_.empty()) {
-      own_twins_.assign(twins_.begin(), twins_.end());
-      twins_ = own_twins_;
-    }
-    own_twins_[c] = kNone;
+    if (twin == kNone || twin < c) continue;
+    if (site(twin) != site(faces.next(c)) || site(faces.next(twin)) != site(c)) cut(c);
   }
 }
 
-// An umbrella is one fan.
-void ValueGraph::findFirsts() {
-  starts_.assign(site_count_, kNone);
-  Index open = 0;  // without decisions, so that compilers make vectors of it
-  for (const Index twin : twins_) open |= twin == kNone;
-  const auto find = [&](auto counts) {
-    for (Index c = cornerCount(); c-- > 0;) {
-      if (counts(c)) starts_[sites_[c]] = c;
-    }
-    for (Index c = 0; open != 0 && c < cornerCount(); ++c) {
-      if (twins_[c] == kNone && counts(c)) starts_[sites_[c]] = c;
-    }
-  };
-  if (shapes_.empty()) return find([](Index) { return true; });
-  find([faces = any()](Index corner) { return faces.degree(corner) >= 3; });
+// The last one first, so that each is put before those of its site that are known.
+void ValueGraph::listFans(const Connectivity& mesh, Index counted) {
+  std::vector<Index> closed(mesh.umbrella_count, kNone);
+  for (Index c = counted; c-- > 0;) closed[mesh.umbrellas[c]] = c;
+  for (Index c = 0; c < counted; ++c) {
+    if (twins_[c] == kNone) closed[mesh.umbrellas[c]] = kNone;
+  }
+  for (size_t umbrella = closed.size(); umbrella-- > 0;) {
+    if (closed[umbrella] != kNone) addFan(closed[umbrella]);
+  }
+  for (Index c = counted; c-- > 0;) {
+    if (twins_[c] == kNone) addFan(c);
+  }
 }
 
-// Fan by fan. Of inconsistent twins, too, nothing is listed twice.
-void ValueGraph::listFans() {
-  const auto counts = [&](Index corner) { return shapes_.empty() || degree(corner) >= 3; };
-  starts_.assign(size_t{site_count_} + 1, 0);
-  for (Index c = 0; c < cornerCount(); ++c) starts_[sites_[c]] += counts(c);
-  Index sum = 0;
-  for (Index& start : starts_) sum += std::exchange(start, sum);
-  fans_.resize(std::max(sum, 1u));
-  std::vector<Index> ends(starts_.begin(), starts_.end());
-  std::vector<bool> listed(cornerCount());
-  const auto list = [&](Index first) {
-    const Index site = sites_[first];
-    for (Index corner = first; corner != kNone && !listed[corner] && sites_[corner] == site && counts(corner);
-         corner = twins_[prev(corner)]) {
-      listed[corner] = true;
-      fans_[ends[site]++] = corner;
-    }
-    fans_[ends[site] - 1] |= kLast;
-  };
-  for (Index c = 0; c < cornerCount(); ++c) {
-    if (twins_[c] == kNone && counts(c) && !listed[c]) list(c);
+void ValueGraph::addFan(Index first) {
+  Index& fans = starts_[sites_[first]];
+  if (fans == kNone) {
+    fans = first;
+    return;
   }
-  for (Index c = 0; c < cornerCount(); ++c) {
-    if (counts(c) && !listed[c]) list(c);
-  }
+  fans_.push_back({first, fans});
+  fans = kSeveral + static_cast<Index>(fans_.size() - 1);
 }
 
 ValueGraph::CornerList ValueGraph::corners(Index site) const {
@@ -148,28 +118,36 @@ ValueGraph::CornerList ValueGraph::corners(Index site) const {
 
 WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
                       std::span<const uint8_t> seams) {
-  Partition partition(wedge_count);
+  std::optional<Partition> partition;
+  const auto join = [&](Index a, Index b) {
+    if (!partition) partition.emplace(wedge_count);
+    partition->join(a, b);
+  };
   Index begin = 0;
   for (const Index degree : mesh.face_degrees) {
-    for (Index c = begin; c < begin + degree; ++c) {
+    const Index end = begin + degree;
+    for (Index c = begin; c < end; ++c) {
       const Index twin = mesh.twins[c];
       if (twin == kNone || (!seams.empty() && seams[c] != 0)) continue;
-      partition.join(wedges[c + 1 == begin + degree ? begin : c + 1], wedges[twin]);
+      const Index wedge = wedges[c + 1 == end ? begin : c + 1];
+      if (wedge != wedges[twin]) join(wedge, wedges[twin]);
     }
-    begin += degree;
+    begin = end;
   }
-  return std::move(partition).number();
+  return partition ? std::move(*partition).number() : WedgeSites{{}, wedge_count};
 }
 
 WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count) {
-  Partition partition(wedge_count);
-  std::vector<Index> wedge_of(mesh.vertex_count, kNone);
-  for (Index c = 0; c < wedges.size(); ++c) {
-    Index& wedge = wedge_of[mesh.vertexOf(c)];
-    if (wedge == kNone) wedge = wedges[c];
-    if (wedge != wedges[c]) partition.join(wedge, wedges[c]);
+  WedgeSites sites{std::vector<Index>(wedge_count, kNone), 0};
+  for (Index c = 0; c < wedges.size(); ++c) sites.site_of[wedges[c]] = mesh.vertexOf(c);
+  std::vector<Index> site_of_vertex(mesh.vertex_count, kNone);
+  for (Index& vertex : sites.site_of) {
+    Index isolated = kNone;
+    Index& site = vertex == kNone ? isolated : site_of_vertex[vertex];
+    if (site == kNone) site = sites.count++;
+    vertex = site;
   }
-  return std::move(partition).number();
+  return sites;
 }
 
 }  // namespace tutte

@@ -2,60 +2,34 @@
 // Where values sit on a mesh. Corners that share a value form a *site*: a vertex for positions; for an attribute with
 // seams, the corners of a vertex between two seams.
 
-#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "codec/face_ways.h"
 #include "codec/mesh.h"
 
 namespace tutte {
 
-/// The ways round the faces of a mesh that has nothing but triangles.
-struct TriangleFaces {
-  static constexpr bool kAllTriangles = true, kListed = false;
-
-  Index degree(Index) const { return 3; }
-  // Sums, because compilers make decisions of comparisons, and which corner it is nobody foresees.
-  Index next(Index corner) const { return corner + 1 - 3 * isFirst(corner + 1); }
-  Index prev(Index corner) const { return corner - 1 + 3 * isFirst(corner); }
-
- private:
-  // By the inverse of 3: it turns multiples of 3 into the lowest third of all numbers, and no others.
-  static Index isFirst(Index corner) { return corner * 0xAAAAAAABu <= 0x55555555u; }
-};
-
-/// The same for any faces, from a word per corner: 12 bits the way to the corner before it, 12 bits to the one after
-/// it, 8 bits the degree.
-struct AnyFaces {
-  static constexpr bool kAllTriangles = false, kListed = false;
-  static constexpr uint32_t kMostDegree = 255;
-
-  const uint32_t* shapes;
-
-  Index degree(Index corner) const { return shapes[corner] & kMostDegree; }
-  Index next(Index corner) const {
-    return corner + static_cast<Index>(static_cast<int32_t>(shapes[corner] << 12) >> 20);
-  }
-  Index prev(Index corner) const { return corner + static_cast<Index>(static_cast<int32_t>(shapes[corner]) >> 20); }
-};
-
 /// The sites of one attribute over a mesh, as predictors see them. 4 bytes per site, and 4 more per corner each: where
-/// not all faces are triangles, where seams part faces, and twice where the sites are not the umbrellas.
+/// not all faces are triangles, and where seams part faces.
 ///
-/// In a face of more than 2048 corners, the first one's predecessor and the last one's successor are these themselves.
+/// In a face of more than 2048 corners, the first one's predecessor and the last one's successor are these themselves,
+/// and both ones' edges are boundaries.
 class ValueGraph {
  public:
   /// The sites are the umbrellas, and behind them those that no corner uses. The mesh must stay as and where it is.
   /// O(corners), as the other one.
-  ValueGraph(const Connectivity& mesh, Index site_count);
-  /// `sites` gives a number below `site_count` for every corner.
-  ValueGraph(const Connectivity& mesh, std::vector<Index> sites, Index site_count);
+  ValueGraph(const Connectivity& mesh, Index site_count) : ValueGraph(mesh, mesh.umbrellas, site_count, false) {}
+  /// `sites`, too, must stay: per corner a number below `site_count`. `parted`: an umbrella may lie in several.
+  ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count, bool parted = true);
   ValueGraph(ValueGraph&&) = default;
 
   static constexpr Index kMostCorners = 60;  ///< of a site; further ones are not looked at
 
-  Index siteCount() const { return site_count_; }
+  Index siteCount() const { return static_cast<Index>(starts_.size()); }
   Index cornerCount() const { return static_cast<Index>(sites_.size()); }
 
   /// The mesh's.
@@ -72,7 +46,6 @@ class ValueGraph {
   /// Calls visit(faces) with what goRound() asks for: for those who go round many of them.
   template <class Visit>
   void withFaces(Visit visit) const {
-    if (!fans_.empty()) return visit(ListedFaces{*this});
     shapes_.empty() ? visit(TriangleFaces{}) : visit(any());
   }
 
@@ -83,22 +56,22 @@ class ValueGraph {
   /// its lowest corner; open fans come first. At most 60 corners in all; those of faces of degree below 3 do not count.
   template <class Faces, class Step, class End>
   [[gnu::always_inline]] void goRound(const Faces& faces, Index site, Step step, End end) const {
-    if constexpr (Faces::kListed) return goRoundList(site, step, end);
-    const Index first = starts_[site];
-    if (first == kNone) return;
-    Index corner = first, rest = kMostCorners;
+    const Index fans = starts_[site];
+    if (fans >= kSeveral) [[unlikely]]
+      return goRoundSeveral(faces, fans, step, end);
+    Index corner = fans, rest = kMostCorners;
     do {
       const Index prev = faces.prev(corner);
       step(corner, prev);
       corner = twins_[prev];
-    } while (corner != kNone && corner != first && --rest > 0);
-    end(first, corner);
+    } while (corner != kNone && corner != fans && --rest > 0);
+    end(fans, corner);
   }
 
   /// A fan of the site is open.
   bool isOpen(Index site) const {
-    const Index first = firstCorner(site);
-    return first != kNone && twins_[first] == kNone;
+    Index fans = starts_[site];
+    return fans != kNone && twins_[takeFan(fans)] == kNone;
   }
 
   /// The corners of a site.
@@ -114,55 +87,55 @@ class ValueGraph {
   CornerList corners(Index site) const;
 
  private:
-  // Where not every site is one fan, so that fans are listed; few meshes are worth code of their own.
-  struct ListedFaces {
-    static constexpr bool kAllTriangles = false, kListed = true;
-
-    const ValueGraph& graph;
-
-    Index degree(Index corner) const { return graph.degree(corner); }
-    Index next(Index corner) const { return graph.next(corner); }
-    Index prev(Index corner) const { return graph.prev(corner); }
+  // The fans of a site: kNone, the first corner of a single one, or kSeveral and which of `fans_` is the first.
+  static constexpr Index kSeveral = 1u << 31;
+  struct Fan {
+    Index first, others;
   };
 
-  static constexpr Index kLast = 1u << 31;  // marks the last corner of a fan
-
-  AnyFaces any() const { return {shapes_.data()}; }
-  bool listShapes(std::span<const Index> face_degrees);
-  void findFirsts();
-  void listFans();
-  void dropSeamTwins();
-
-  Index firstCorner(Index site) const {
-    if (fans_.empty()) return starts_[site];
-    return starts_[site] < starts_[site + 1] ? fans_[starts_[site]] & ~kLast : kNone;
+  Index takeFan(Index& fans) const {
+    if (fans < kSeveral) [[likely]]
+      return std::exchange(fans, kNone);
+    const Fan& fan = fans_[fans - kSeveral];
+    fans = fan.others;
+    return fan.first;
   }
 
-  template <class Step, class End>
-  [[gnu::always_inline]] void goRoundList(Index site, Step step, End end) const {
-    Index first = kNone;
-    for (Index at = starts_[site], rest = kMostCorners; at < starts_[site + 1] && rest > 0; ++at, --rest) {
-      const Index corner = fans_[at] & ~kLast, before = prev(corner);
-      if (first == kNone) first = corner;
-      step(corner, before);
-      if (corner == fans_[at] && rest > 1) continue;
-      end(first, twins_[before]);
-      first = kNone;
+  // Apart, because what sites with a single fan need is much less.
+  template <class Faces, class Step, class End>
+  [[gnu::always_inline]] void goRoundSeveral(const Faces& faces, Index fans, Step& step, End& end) const {
+    for (Index rest = kMostCorners; fans != kNone && rest > 0;) {
+      const Index first = takeFan(fans);
+      Index corner = first;
+      do {
+        const Index prev = faces.prev(corner);
+        step(corner, prev);
+        corner = twins_[prev];
+        --rest;
+      } while (corner != kNone && corner != first && rest > 0);
+      end(first, corner);
     }
   }
 
-  Index site_count_;
-  std::vector<Index> own_sites_, own_twins_;  // empty: the mesh's
-  std::span<const Index> sites_, twins_;      // per corner
+  AnyFaces any() const { return {shapes_.data()}; }
+  void cut(Index corner);
+  void cutLargeFaces(std::span<const Index> face_degrees);
+  template <class Faces>
+  void cutSeams(const Faces& faces);
+  void listFans(const Connectivity& mesh, Index counted);
+  void addFan(Index first);
+
+  std::span<const Index> sites_, twins_;  // per corner
+  std::vector<Index> own_twins_;          // empty: the mesh's
   std::span<const ComponentCopy> copies_;
   std::vector<uint32_t> shapes_;  // per corner; empty: all triangles
-  std::vector<Index> starts_;     // per site where its fans begin in `fans_`, and where all end
-  std::vector<Index> fans_;       // site by site; empty: sites have one fan each, and `starts_` its first corner
+  std::vector<Index> starts_;     // per site its fans
+  std::vector<Fan> fans_;
 };
 
 /// The site of each wedge, numbered by the smallest wedge.
 struct WedgeSites {
-  std::vector<Index> site_of;
+  std::vector<Index> site_of;  ///< empty: every wedge is a site
   Index count = 0;
 };
 

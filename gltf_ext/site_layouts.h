@@ -14,7 +14,8 @@ namespace tutte {
 
 /// The sites of one attribute.
 struct SiteLayout {
-  WedgeSites wedges;  ///< no entries: every wedge is a site
+  WedgeSites wedges;
+  std::vector<Index> sites;  ///< per corner; empty: the graph knows them from elsewhere
   std::optional<ValueGraph> graph;
 };
 
@@ -51,27 +52,36 @@ class SiteLayouts {
     std::unique_ptr<SiteLayout> layout;
   };
 
-  // Every vertex has one umbrella and one wedge: all attributes have the same sites.
-  bool whole() const {
-    const Connectivity& mesh = topology_.connectivity;
-    return mesh.vertices.empty() && topology_.wedge_count == mesh.vertex_count &&
-           (topology_.wedges.data() == mesh.umbrellas.data() || std::ranges::equal(topology_.wedges, mesh.umbrellas));
+  // Every vertex has one wedge: all attributes have the same sites.
+  bool whole() const { return topology_.wedge_count == topology_.connectivity.vertex_count; }
+
+  bool areUmbrellas(std::span<const Index> sites) const {
+    const std::vector<Index>& umbrellas = topology_.connectivity.umbrellas;
+    return sites.data() == umbrellas.data() || std::ranges::equal(sites, umbrellas);
   }
 
   std::unique_ptr<SiteLayout> make(bool positions, std::span<const uint8_t> seams) const {
     const Connectivity& mesh = topology_.connectivity;
+    const std::span<const Index> wedges = topology_.wedges;
     auto layout = std::make_unique<SiteLayout>();
     layout->wedges = whole_      ? WedgeSites{{}, topology_.wedge_count}
-                     : positions ? joinVertices(mesh, topology_.wedges, topology_.wedge_count)
-                                 : joinWedges(mesh, topology_.wedges, topology_.wedge_count, seams);
-    if (whole_) {
-      layout->graph.emplace(mesh, layout->wedges.count);
-      return layout;
+                     : positions ? joinVertices(mesh, wedges, topology_.wedge_count)
+                                 : joinWedges(mesh, wedges, topology_.wedge_count, seams);
+    const bool parted = !topology_.trusted || !(positions || whole_);
+    std::span<const Index> sites = wedges;
+    if (positions && topology_.trusted && mesh.vertices.empty()) {
+      sites = mesh.umbrellas;
+    } else if (!layout->wedges.site_of.empty()) {
+      layout->sites.reserve(wedges.size());
+      for (const Index wedge : wedges) layout->sites.push_back(layout->wedges.site_of[wedge]);
+      sites = layout->sites;
     }
-    std::vector<Index> sites;
-    sites.reserve(mesh.umbrellas.size());
-    for (const Index wedge : topology_.wedges) sites.push_back(layout->wedges.site_of[wedge]);
-    layout->graph.emplace(mesh, std::move(sites), layout->wedges.count);
+    if (areUmbrellas(sites)) {
+      layout->graph.emplace(mesh, layout->wedges.count);
+      layout->sites = std::vector<Index>();
+    } else {
+      layout->graph.emplace(mesh, sites, layout->wedges.count, parted);
+    }
     return layout;
   }
 

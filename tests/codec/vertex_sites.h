@@ -17,13 +17,15 @@ struct VertexSites {
   VertexSites(const VertexSites&) = delete;
 
   const Encoded encoded;
+  const std::vector<Index> sites;
   const ValueGraph graph;
   const std::vector<Index>& vertex_order;
 
  private:
   explicit VertexSites(Encoded coded)
       : encoded(std::move(coded)),
-        graph(encoded.connectivity, verticesOf(encoded.connectivity), encoded.connectivity.vertex_count),
+        sites(verticesOf(encoded.connectivity)),
+        graph(encoded.connectivity, sites, encoded.connectivity.vertex_count),
         vertex_order(encoded.vertex_order) {}
 
   static Encoded encodedOf(const Polygons& mesh) {

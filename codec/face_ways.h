@@ -1,0 +1,78 @@
+#pragma once
+// The ways round the faces of a mesh, from corner to corner.
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/mesh.h"
+
+namespace tutte {
+
+/// The ways round the faces of a mesh that has nothing but triangles.
+struct TriangleFaces {
+  static constexpr bool kAllTriangles = true;
+
+  Index degree(Index) const { return 3; }
+  // Sums, because compilers make decisions of comparisons, and which corner it is nobody foresees.
+  Index next(Index corner) const { return corner + 1 - 3 * isFirst(corner + 1); }
+  Index prev(Index corner) const { return corner - 1 + 3 * isFirst(corner); }
+
+ private:
+  // By the inverse of 3: it turns multiples of 3 into the lowest third of all numbers, and no others.
+  static Index isFirst(Index corner) { return corner * 0xAAAAAAABu <= 0x55555555u; }
+};
+
+/// The same for any faces, from a word per corner: 12 bits the way to the corner before it, 12 bits to the one after
+/// it, 8 bits the degree.
+struct AnyFaces {
+  static constexpr bool kAllTriangles = false;
+  static constexpr uint32_t kMostDegree = 255;
+
+  const uint32_t* shapes;
+
+  Index degree(Index corner) const { return shapes[corner] & kMostDegree; }
+  Index next(Index corner) const {
+    return corner + static_cast<Index>(static_cast<int32_t>(shapes[corner] << 12) >> 20);
+  }
+  Index prev(Index corner) const { return corner + static_cast<Index>(static_cast<int32_t>(shapes[corner]) >> 20); }
+};
+
+inline constexpr Index kMostWays = 2048;  ///< corners of a face that there is a way round
+
+/// The words of AnyFaces. In larger faces than that, the first one's predecessor and the last one's successor
+/// are these themselves. 4 bytes per corner.
+inline std::vector<uint32_t> faceShapes(std::span<const Index> face_degrees, size_t corner_count) {
+  const auto shapeOf = [](Index back, Index forth, Index degree) {
+    return back << 20 | (forth & 0xFFF) << 8 | std::min(degree, AnyFaces::kMostDegree);
+  };
+  std::vector<uint32_t> shapes;
+  shapes.reserve(corner_count);
+  for (const Index degree : face_degrees) {
+    if (degree == 4) {
+      shapes.insert(shapes.end(), {shapeOf(3, 1, 4), shapeOf(~0u, 1, 4), shapeOf(~0u, 1, 4), shapeOf(~0u, ~2u, 4)});
+      continue;
+    }
+    if (degree == 0) continue;
+    const Index wrap = degree <= kMostWays ? degree - 1 : 0;
+    shapes.push_back(shapeOf(wrap, degree > 1, degree));
+    for (Index i = 2; i < degree; ++i) shapes.push_back(shapeOf(~0u, 1, degree));
+    if (degree > 1) shapes.push_back(shapeOf(~0u, 0u - wrap, degree));
+  }
+  return shapes;
+}
+
+/// Per umbrella one of its corners: of one that forms a fan, that whose own edge is a boundary; of a cycle the lowest.
+/// Umbrellas that have none of the corners given are left alone.
+inline void findFirstCorners(std::span<const Index> twins, std::span<const Index> umbrellas,
+                             std::vector<Index>& firsts) {
+  Index open = 0;  // without decisions, so that compilers make vectors of it
+  for (const Index twin : twins) open |= twin == kNone;
+  for (Index c = static_cast<Index>(umbrellas.size()); c-- > 0;) firsts[umbrellas[c]] = c;
+  for (Index c = 0; open != 0 && c < umbrellas.size(); ++c) {
+    if (twins[c] == kNone) firsts[umbrellas[c]] = c;
+  }
+}
+
+}  // namespace tutte
