@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "codec/mesh.h"
+#include "codec/triangulation.h"
 
 namespace tutte {
 
@@ -62,6 +63,51 @@ inline std::vector<uint32_t> faceShapes(std::span<const Index> face_degrees, siz
   }
   return shapes;
 }
+
+/// The same, for faces of any size. 4 bytes per corner, where not all faces are triangles.
+class FaceWays {
+ public:
+  explicit FaceWays(const Connectivity& mesh) {
+    if (onlyTriangles(mesh.face_degrees)) return;
+    shapes_ = faceShapes(mesh.face_degrees, mesh.umbrellas.size());
+    Index first = 0;
+    for (const Index degree : mesh.face_degrees) {
+      if (degree > kMostWays) large_.push_back({first, first + degree - 1});
+      first += degree;
+    }
+  }
+
+  Index next(Index corner) const {
+    if (shapes_.empty()) return TriangleFaces{}.next(corner);
+    const Index next = AnyFaces{shapes_.data()}.next(corner);
+    return next == corner ? acrossLarge(corner) : next;
+  }
+
+  Index prev(Index corner) const {
+    if (shapes_.empty()) return TriangleFaces{}.prev(corner);
+    const Index prev = AnyFaces{shapes_.data()}.prev(corner);
+    return prev == corner ? acrossLarge(corner) : prev;
+  }
+
+  /// At most 255.
+  Index degree(Index corner) const { return shapes_.empty() ? 3 : AnyFaces{shapes_.data()}.degree(corner); }
+
+ private:
+  // From an end of a large face to the other.
+  [[gnu::noinline]] Index acrossLarge(Index corner) const {
+    const auto after = std::ranges::upper_bound(large_, corner, {}, &Ends::first);
+    if (after == large_.begin()) return corner;
+    const Ends& ends = after[-1];
+    return corner == ends.first ? ends.last : corner == ends.last ? ends.first : corner;
+  }
+
+  struct Ends {
+    Index first, last;
+  };
+
+  std::vector<uint32_t> shapes_;  // empty: triangles
+  std::vector<Ends> large_;
+};
 
 /// Per umbrella one of its corners: of one that forms a fan, that whose own edge is a boundary; of a cycle the lowest.
 /// Umbrellas that have none of the corners given are left alone.

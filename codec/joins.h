@@ -6,13 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "codec/face_ways.h"
 #include "codec/mesh.h"
 #include "codec/model.h"
 #include "codec/result.h"
-#include "codec/umbrella_neighbors.h"
 
 namespace tutte {
 
@@ -20,25 +21,28 @@ namespace tutte {
 class JoinCandidates {
  public:
   explicit JoinCandidates(const Connectivity& mesh)
-      : mesh_(mesh), neighbors_(mesh), sibling_(mesh.umbrella_count, kNone) {}
+      : mesh_(mesh),
+        ways_(mesh),
+        firsts_(mesh.umbrella_count, kNone),
+        suggested_(mesh.umbrella_count, 0),
+        vertices_(std::make_unique_for_overwrite<Vertex[]>(mesh.umbrella_count)),
+        sibling_(std::make_unique_for_overwrite<Index[]>(mesh.umbrella_count)) {
+    findFirstCorners(mesh.twins, mesh.umbrellas, firsts_);
+  }
 
   /// Looks around an umbrella; all before it are known. O(1).
   void gather(Index umbrella) {
     found_ = 0;
-    starts_ = true;
-    const std::span<const Index> neighbors = atMost(neighbors_.of(umbrella), kMostNeighbors);
-    lone_ = neighbors.size() == 2;
+    lone_ = isLone(firsts_[umbrella]);
+    if (!suggested_[umbrella] && !lone_) return;
+    const Ring<kMostNeighbors> neighbors(*this, umbrella, umbrella);
     for (const Index neighbor : neighbors) {
-      if (neighbor >= umbrella) continue;
-      starts_ = false;
-      if (umbrellas_[mesh_.vertices[neighbor]] > 1) look(umbrella, neighbor);
+      if (vertexOf(neighbor).umbrellas > 1) look(umbrella, neighbor);
     }
     if (found_ == 0 && !lone_) return;
-    for (const Index neighbor : neighbors) {
-      if (neighbor < umbrella) settle(mesh_.vertices[neighbor]);
-    }
+    for (const Index neighbor : neighbors) settle(mesh_.vertices[neighbor]);
     std::stable_sort(candidates_.begin(), candidates_.begin() + found_, [&](const Candidate& a, const Candidate& b) {
-      return a.votes != b.votes ? a.votes > b.votes : umbrellas_[a.vertex] < umbrellas_[b.vertex];
+      return a.votes != b.votes ? a.votes > b.votes : vertices_[a.vertex].umbrellas < vertices_[b.vertex].umbrellas;
     });
   }
 
@@ -50,44 +54,89 @@ class JoinCandidates {
   int evidence() const { return found_ == 0 ? 0 : lone_ ? 3 : candidates_[0].votes == 1 ? 1 : 2; }
 
   /// No neighbour comes before it.
-  bool starts() const { return starts_; }
+  bool starts(Index umbrella) const {
+    const Ring<1> neighbors(*this, umbrella, umbrella);
+    return neighbors.begin() == neighbors.end();
+  }
 
-  /// An umbrella's vertex is known.
-  void learn(Index umbrella) {
-    const Index vertex = mesh_.vertices[umbrella];
-    if (vertex == last_.size()) {
-      last_.push_back(umbrella);
-      umbrellas_.push_back(1);
-    } else {
-      ++umbrellas_[vertex];
-      sibling_[umbrella] = last_[vertex];
-      last_[vertex] = umbrella;
+  /// An umbrella's vertex is known, and new or not.
+  void learn(Index umbrella, bool joined) {
+    Vertex& vertex = vertexOf(umbrella);
+    if (joined) {
+      if (vertex.umbrellas == 1) suggestAround(vertex.last);
+      suggestAround(umbrella);
     }
+    sibling_[umbrella] = joined ? vertex.last : kNone;
+    vertex = {umbrella, joined ? vertex.umbrellas + 1 : 1};
   }
 
   static constexpr int kMostRanks = 6;
 
  private:
   static constexpr size_t kMostNeighbors = 8, kMostRing = 12;
-  static constexpr int kMostSiblings = 3, kMostCandidates = 16, kOwn = 100;
+  static constexpr int kMostSteps = 32, kMostSiblings = 3, kMostCandidates = 16, kOwn = 100;
 
   struct Candidate {
     Index vertex;
     int votes;
   };
 
-  static std::span<const Index> atMost(std::span<const Index> list, size_t count) {
-    return list.first(std::min(list.size(), count));
+  struct Vertex {
+    Index last;       ///< of its umbrellas
+    Index umbrellas;  ///< how many there are
+  };
+
+  /// The first of an umbrella's neighbours that are below a number: one per edge, in the order round it.
+  template <size_t kMost>
+  class Ring {
+   public:
+    Ring(const JoinCandidates& candidates, Index umbrella, Index below) {
+      candidates.goRound(umbrella, [&, steps = 0](Index neighbor) mutable {
+        if (neighbor < below) neighbors_[count_++] = neighbor;
+        return count_ < kMost && ++steps < kMostSteps;
+      });
+    }
+
+    const Index* begin() const { return neighbors_.data(); }
+    const Index* end() const { return neighbors_.data() + count_; }
+
+   private:
+    std::array<Index, kMost> neighbors_;
+    size_t count_ = 0;
+  };
+
+  Vertex& vertexOf(Index umbrella) { return vertices_[mesh_.vertices[umbrella]]; }
+
+  /// Calls visit(neighbour) as long as it returns true.
+  template <class Visit>
+  void goRound(Index umbrella, Visit visit) const {
+    const Index first = firsts_[umbrella];
+    if (first == kNone || !visit(mesh_.umbrellas[ways_.next(first)])) return;
+    for (Index corner = first; corner != kNone;) {
+      const Index prev = ways_.prev(corner);
+      corner = mesh_.twins[prev];
+      if (corner == first || !visit(mesh_.umbrellas[prev])) return;
+    }
+  }
+
+  /// It has two neighbours.
+  bool isLone(Index first) const {
+    if (first == kNone) return false;
+    const Index beyond = mesh_.twins[ways_.prev(first)];
+    return beyond == kNone || (beyond != first && mesh_.twins[ways_.prev(beyond)] == first);
+  }
+
+  /// An umbrella shares its vertex.
+  void suggestAround(Index umbrella) {
+    goRound(umbrella, [&](Index neighbor) { return suggested_[neighbor] = 1; });
   }
 
   // The neighbours of the other umbrellas of a neighbour's vertex.
   void look(Index umbrella, Index neighbor) {
-    Index sibling = last_[mesh_.vertices[neighbor]];
+    Index sibling = vertexOf(neighbor).last;
     for (int i = 0; i < kMostSiblings && sibling != kNone; ++i, sibling = sibling_[sibling]) {
       if (sibling == neighbor) continue;
-      for (const Index far : atMost(neighbors_.of(sibling), kMostRing)) {
-        if (far < umbrella) vote(mesh_.vertices[far]);
-      }
+      for (const Index far : Ring<kMostRing>(*this, sibling, umbrella)) vote(mesh_.vertices[far]);
     }
   }
 
@@ -109,13 +158,14 @@ class JoinCandidates {
   }
 
   const Connectivity& mesh_;
-  UmbrellaNeighbors neighbors_;
-  std::vector<Index> last_;       // per vertex: its last umbrella
-  std::vector<Index> umbrellas_;  // per vertex: how many it has
-  std::vector<Index> sibling_;    // per umbrella: the one before it at its vertex
+  const FaceWays ways_;
+  std::vector<Index> firsts_;       // per umbrella: the corner from which one goes round it
+  std::vector<uint8_t> suggested_;  // per umbrella: a neighbour shares its vertex
+  const std::unique_ptr<Vertex[]> vertices_;
+  const std::unique_ptr<Index[]> sibling_;  // per umbrella: the one before it at its vertex
   std::array<Candidate, kMostCandidates> candidates_;
   int found_ = 0;
-  bool lone_ = false, starts_ = false;
+  bool lone_ = false;
 };
 
 template <class Port>
@@ -133,11 +183,11 @@ class JoinCoder {
       const Index truth = truth_.empty() ? 0 : truth_[u];
       candidates_.gather(u);
       const bool joined = count_ != 0 && isJoined(u).code(port_, truth != count_);
-      const Index vertex = joined ? codeVertex(truth) : count_++;
+      const Index vertex = joined ? codeVertex(u, truth) : count_++;
       if (vertex >= count_) return Error::kMalformed;
       mesh_.vertices[u] = vertex;
-      candidates_.learn(u);
-      if (joined) expect(vertex);
+      candidates_.learn(u, joined);
+      if (joined) expect(u, vertex);
       joined_before_ = joined;
     }
     mesh_.vertex_count = count_;
@@ -151,22 +201,22 @@ class JoinCoder {
   }
 
   // References run on from the last one; those of components, from the last component's.
-  void expect(Index vertex) {
+  void expect(Index umbrella, Index vertex) {
     expected_ = vertex + 1;
-    if (candidates_.starts()) expected_start_ = vertex;
+    if (candidates_.starts(umbrella)) expected_start_ = vertex;
   }
 
-  Index codeVertex(Index truth) {
+  Index codeVertex(Index umbrella, Index truth) {
     const int evidence = candidates_.evidence();
     for (int rank = 0; rank < candidates_.count(); ++rank) {
       if (hits_[evidence][rank].code(port_, truth == candidates_.vertex(rank))) return candidates_.vertex(rank);
     }
-    return codeFar(truth);
+    return codeFar(candidates_.starts(umbrella), truth);
   }
 
-  Index codeFar(Index truth) {
-    const int context = candidates_.starts() ? 2 : joined_before_;
-    const Index expected = candidates_.starts() ? expected_start_ : expected_;
+  Index codeFar(bool starts, Index truth) {
+    const int context = starts ? 2 : joined_before_;
+    const Index expected = starts ? expected_start_ : expected_;
     const bool back = backwards_[context].code(port_, truth < expected);
     const Index steps = distance_[context].code(port_, back ? expected - 1 - truth : truth - expected);
     const uint64_t vertex = back ? uint64_t{expected} - 1 - steps : uint64_t{expected} + steps;

@@ -1,5 +1,6 @@
 #include "codec/payload_mesh.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "codec/face_groups.h"
@@ -71,9 +72,15 @@ std::vector<Index> inMeshOrder(const std::vector<Index>& values, const std::vect
   return result;
 }
 
-/// Corners and faces are coded as they are in the mesh.
-bool isPlain(const PayloadMesh& mesh) {
-  return mesh.connectivity.flipped.empty() && mesh.connectivity.vertices.empty();
+/// From coded orientation to that of the mesh: a flipped face keeps its first corner.
+void turnFaces(const Connectivity& coded, std::vector<Index>& values) {
+  if (coded.flipped.empty() || values.empty()) return;
+  auto first = values.begin();
+  for (size_t face = 0; face < coded.face_degrees.size(); ++face) {
+    const auto end = first + coded.face_degrees[face];
+    if (coded.flipped[face] && end - first > 1) std::reverse(first + 1, end);
+    first = end;
+  }
 }
 
 /// The polygons' triangles, if they are not given and not the polygons themselves.
@@ -94,7 +101,6 @@ constexpr Step kSteps[] = {
     {Section::kSeams, decodeWedges},
     {Section::kGroups, decodeFaceGroups},
     {Section::kRings, decodeRingOwners},
-    {Section::kTriangulation, decodeTriangles},
 };
 
 }  // namespace
@@ -135,20 +141,27 @@ Error completePolygons(const PayloadView& payload, PayloadMesh& mesh) {
 }
 
 Error turnIntoPolygons(const PayloadView& payload, PayloadMesh& mesh) {
-  Connectivity& coded = mesh.connectivity;
-  coded.twins = {};
-  mesh.seams.attribute_seams.clear();
-  if (!isPlain(mesh)) {
-    const Error error = completePolygons(payload, mesh);
-    mesh.coded_corners = {};
-    return error;
+  Seams seams = std::exchange(mesh.seams, {});
+  seams.attribute_seams = std::vector<std::vector<uint8_t>>();
+  if (const Error error = decodeTriangles(payload, mesh); error != Error::kNone) return error;
+  Connectivity coded = std::exchange(mesh.connectivity, {});
+  coded.twins = std::vector<Index>();
+  std::vector<Index>& corners = mesh.polygons.corners;
+  if (payload.has(Section::kSeams)) mesh.wedges = std::move(seams.wedges);
+  if (mesh.counts.welded > 0) {
+    corners = std::move(seams.vertices);
+  } else if (!seams.wedges.empty()) {
+    corners = std::move(seams.wedges);
+  } else {
+    corners = std::move(coded.umbrellas);
+    if (!coded.vertices.empty()) {
+      for (Index& corner : corners) corner = coded.vertices[corner];
+    }
   }
-  const bool welded = mesh.counts.welded > 0;
-  mesh.polygons = {std::move(coded.face_degrees), std::move(welded ? mesh.seams.vertices : coded.umbrellas),
-                   mesh.counts.vertices};
-  if (payload.has(Section::kSeams)) mesh.wedges = std::move(mesh.seams.wedges);
-  coded = {};
-  mesh.seams = {};
+  turnFaces(coded, corners);
+  turnFaces(coded, mesh.wedges);
+  mesh.polygons.face_degrees = std::move(coded.face_degrees);
+  mesh.polygons.vertex_count = mesh.counts.vertices;
   return completeTriangles(mesh, payload.has(Section::kTriangulation));
 }
 
@@ -161,7 +174,8 @@ Result<PayloadMesh, PayloadFailure> decodePayloadMesh(const PayloadView& payload
                                                       Decoder& decoder) {
   Result<PayloadMesh, PayloadFailure> mesh = decodeSections(payload, limits, decoder);
   if (!mesh) return mesh;
-  const Error error = completePolygons(payload, *mesh);
+  Error error = decodeTriangles(payload, *mesh);
+  if (error == Error::kNone) error = completePolygons(payload, *mesh);
   if (error != Error::kNone) return PayloadFailure{error, nameOf(Section::kTriangulation)};
   return mesh;
 }

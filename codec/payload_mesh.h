@@ -48,12 +48,12 @@ Result<PayloadMesh, PayloadFailure> decodePayloadMesh(const PayloadView& payload
 Result<PayloadMesh, PayloadFailure> decodePayloadMesh(const PayloadView& payload, const Limits& limits,
                                                       Decoder& decoder);
 
-/// The same in two steps, for those who want few things in memory at once. First everything that is in the sections:
-/// `polygons`, `coded_corners`, `wedges` and, where no section gives it, `triangulation` stay empty.
+/// The same in two steps, for those who want few things in memory at once. First what attributes are coded over, and
+/// what belongs to faces: `polygons`, `coded_corners`, `wedges` and `triangulation` stay empty.
 Result<PayloadMesh, PayloadFailure> decodeSections(const PayloadView& payload, const Limits& limits, Decoder& decoder);
 
-/// Fills in what decodeSections() left out, but for `coded_corners`, and gives up `connectivity` and `seams`. May fail
-/// with kCountMismatch, because of the number of triangles.
+/// Fills in what decodeSections() left out, but for `coded_corners`, and gives up `connectivity` and `seams`. Fails
+/// with the errors of the section TRIANGULATION, or with kCountMismatch because of the number of triangles.
 Error turnIntoPolygons(const PayloadView& payload, PayloadMesh& mesh);
 
 }  // namespace tutte

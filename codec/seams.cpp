@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <ranges>
 
 #include "codec/end_flags.h"
 #include "codec/range_coder.h"
@@ -164,11 +165,9 @@ void decodeAttributeSeams(RangeReader& port, const Connectivity& mesh, const Umb
 }  // namespace
 
 std::vector<Index> verticesOf(const Connectivity& mesh) {
-  std::vector<Index> vertices = mesh.umbrellas;
-  if (!mesh.vertices.empty()) {
-    for (Index& umbrella : vertices) umbrella = mesh.vertices[umbrella];
-  }
-  return vertices;
+  if (mesh.vertices.empty()) return mesh.umbrellas;
+  const auto vertices = mesh.umbrellas | std::views::transform([&](Index umbrella) { return mesh.vertices[umbrella]; });
+  return {vertices.begin(), vertices.end()};
 }
 
 Seams withoutSeams(const Connectivity& mesh, Index attribute_count) {

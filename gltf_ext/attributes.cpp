@@ -218,7 +218,7 @@ Outcome<std::vector<Attribute>> decode(const AttributeTopology& topology, std::s
     if (!joinValues(planes, head->codings[i], topology.wedge_count, head->attributes[i])) {
       return damaged("an attribute has a value outside its type");
     }
-    for (Plane& plane : planes) plane.values = {};
+    for (Plane& plane : planes) plane.values = std::vector<int32_t>();
   }
   return std::move(head->attributes);
 }

@@ -33,12 +33,19 @@ PolygonMesh polygonMeshOf(PayloadMesh&& mesh, std::vector<Attribute>&& attribute
           .attributes = std::move(attributes)};
 }
 
-// The attributes are decoded before there are polygons, so that less is in memory at once.
+Result<PayloadMesh, PayloadFailure> sectionsOf(const PayloadView& payload, const Limits& limits, Decoder* kept) {
+  if (kept) return decodeSections(payload, limits, *kept);
+  Decoder decoder;
+  return decodeSections(payload, limits, decoder);
+}
+
+// So that less is in memory at once, the attributes are decoded before there are polygons, and when a decoder that is
+// not `kept` is gone.
 Outcome<PolygonMesh> unpackSections(std::span<const uint8_t> bytes, const Limits& limits, bool with_attributes,
-                                    Decoder& decoder) {
+                                    Decoder* kept) {
   const Result<PayloadView> payload = parsePayload(bytes);
   if (!payload) return failureOf(payload.error(), "header");
-  Result<PayloadMesh, PayloadFailure> mesh = decodeSections(*payload, limits, decoder);
+  Result<PayloadMesh, PayloadFailure> mesh = sectionsOf(*payload, limits, kept);
   if (!mesh) return failureOf(mesh.error().error, std::string(mesh.error().where));
   std::vector<Attribute> attributes;
   if (with_attributes) {
@@ -54,17 +61,15 @@ Outcome<PolygonMesh> unpackSections(std::span<const uint8_t> bytes, const Limits
 }  // namespace
 
 Outcome<PolygonMesh> unpack(std::span<const uint8_t> payload, const Limits& limits) {
-  Decoder decoder;
-  return unpack(payload, limits, decoder);
+  return unpackSections(payload, limits, true, nullptr);
 }
 
 Outcome<PolygonMesh> unpack(std::span<const uint8_t> payload, const Limits& limits, Decoder& decoder) {
-  return unpackSections(payload, limits, true, decoder);
+  return unpackSections(payload, limits, true, &decoder);
 }
 
 Outcome<PolygonMesh> unpackTopology(std::span<const uint8_t> payload, const Limits& limits) {
-  Decoder decoder;
-  return unpackSections(payload, limits, false, decoder);
+  return unpackSections(payload, limits, false, nullptr);
 }
 
 }  // namespace tutte

@@ -129,27 +129,37 @@ def read_flips(stream, mesh):
 
 
 def neighbours_of(mesh):
-    """Per umbrella: the umbrellas at the far ends of its edges."""
-    neighbours = [[] for _ in range(mesh.umbrella_count)]
-    first = 0
+    """Per umbrella: the umbrellas at the far ends of its edges, in the order round it."""
+    next_corner, prev_corner, first = {}, {}, 0
     for degree in mesh.degrees:
         for corner in range(first, first + degree):
-            if mesh.twins[corner] is None or mesh.twins[corner] > corner:
-                ends = mesh.umbrellas[corner], mesh.umbrellas[first + (corner + 1 - first) % degree]
-                neighbours[ends[0]].append(ends[1])
-                neighbours[ends[1]].append(ends[0])
+            next_corner[corner] = first + (corner + 1 - first) % degree
+            prev_corner[next_corner[corner]] = corner
         first += degree
+    begin = {}
+    for corner, umbrella in enumerate(mesh.umbrellas):
+        if umbrella not in begin or mesh.twins[corner] is None:
+            begin[umbrella] = corner
+    neighbours = [[] for _ in range(mesh.umbrella_count)]
+    for umbrella, first in begin.items():
+        neighbours[umbrella].append(mesh.umbrellas[next_corner[first]])
+        corner = first
+        while corner is not None:
+            before, corner = prev_corner[corner], mesh.twins[prev_corner[corner]]
+            if corner == first:
+                break
+            neighbours[umbrella].append(mesh.umbrellas[before])
     return neighbours
 
 
 def join_candidates(u, neighbours, vertices, umbrellas_of):
     """Vertices that umbrella u may belong to, with their votes, likeliest first."""
     votes = {}
-    near = [w for w in neighbours[u][:8] if w < u]
+    near = [w for w in neighbours[u][:32] if w < u][:8]
     for w in near:
         for x in umbrellas_of[vertices[w]][:-4:-1]:
-            for y in neighbours[x][:12] if x != w else []:
-                if y < u and (vertices[y] in votes or len(votes) < 16):
+            for y in [y for y in neighbours[x][:32] if y < u][:12] if x != w else []:
+                if vertices[y] in votes or len(votes) < 16:
                     votes[vertices[y]] = votes.get(vertices[y], 0) + 1
     for w in near:
         votes.pop(vertices[w], None)
@@ -165,7 +175,7 @@ def read_vertices(stream, mesh, on_boundary, walk_umbrellas):
     neighbours, umbrellas_of = neighbours_of(mesh), []
     expected = expected_start = before = 0
     for u in range(mesh.umbrella_count):
-        starts = not any(w < u for w in neighbours[u][:8])
+        starts = not any(w < u for w in neighbours[u][:32])
         kind = 2 if u >= walk_umbrellas else int(u in on_boundary)
         candidates = join_candidates(u, neighbours, mesh.vertices, umbrellas_of)
         evidence = (3 if len(neighbours[u]) == 2 else min(candidates[0][1], 2)) if candidates else 0
