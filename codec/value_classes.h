@@ -50,32 +50,36 @@ class Habits {
 };
 
 /// Classes of residuals, in ascending order: symbols 0 to 14 are -15 to -12, -11 to -8, -7 and -6, -5 and -4, -3, -2,
-/// -1, 0, and the same upwards. Symbol 15 is everything else. With large residuals, all that is multiplied by a power
-/// of two.
+/// -1, 0, and the same upwards. Symbol 15 is everything else. Where large residuals are expected, the m-th below or
+/// above 0 stands for 2^shift of them.
 struct ResidualClass {
-  int8_t least, digits;
+  int32_t least, digits;  ///< of the magnitudes less 1
+  int32_t away, side;     ///< 0 for the class of 0, otherwise 1; -1 below 0, otherwise 0
 };
 inline constexpr int kMostDirect = 15;
-inline constexpr std::array<ResidualClass, kSymbols> kClasses = {{{-15, 2},
-                                                                  {-11, 2},
-                                                                  {-7, 1},
-                                                                  {-5, 1},
-                                                                  {-3, 0},
-                                                                  {-2, 0},
-                                                                  {-1, 0},
-                                                                  {0, 0},
-                                                                  {1, 0},
-                                                                  {2, 0},
-                                                                  {3, 0},
-                                                                  {4, 1},
-                                                                  {6, 1},
-                                                                  {8, 2},
-                                                                  {12, 2},
-                                                                  {16, 0}}};
+inline constexpr uint32_t kZeroClass = 7;
+inline constexpr std::array<ResidualClass, kSymbols> kClasses = {{{11, 2, 1, -1},
+                                                                  {7, 2, 1, -1},
+                                                                  {5, 1, 1, -1},
+                                                                  {3, 1, 1, -1},
+                                                                  {2, 0, 1, -1},
+                                                                  {1, 0, 1, -1},
+                                                                  {0, 0, 1, -1},
+                                                                  {0, 0, 0, 0},
+                                                                  {0, 0, 1, 0},
+                                                                  {1, 0, 1, 0},
+                                                                  {2, 0, 1, 0},
+                                                                  {3, 1, 1, 0},
+                                                                  {5, 1, 1, 0},
+                                                                  {7, 2, 1, 0},
+                                                                  {11, 2, 1, 0},
+                                                                  {15, 0, 1, 0}}};
 
-/// Where a residual is expected: in half octaves of its size, each for four fractions of the prediction, and a last
-/// cell for all that is larger, where fractions do not count and residuals are scaled.
-inline constexpr uint32_t kHalfOctaves = 12, kFractions = 4, kCells = kHalfOctaves * kFractions + 1;
+/// Where a residual is expected: in half octaves of its size, each for four fractions of the prediction; for all that
+/// is larger, residuals are scaled, and the four cells are for the size's binary digits below the first.
+inline constexpr int kTopLog = 6;
+inline constexpr uint32_t kHalfOctaves = 2 * (kTopLog - 1), kFractions = 4;
+inline constexpr uint32_t kScaledCell = kHalfOctaves * kFractions, kCells = kScaledCell + kFractions;
 
 /// What is expected before anything was seen: residuals beyond m have the probability (4 s / (4 s + m))^4 / 2 on either
 /// side, s being the expected size.
@@ -83,11 +87,13 @@ TUTTE_TABLE std::array<Distribution, kCells> kPriors = madeTable([] {
   std::array<Distribution, kCells> priors{};
   uint64_t power = 84990;  // 2^((2 h + 3/2) / 4), in 1/65536, for half octave h
   for (uint32_t cell = 0; cell < kCells; ++cell) {
+    const bool scaled = cell >= kScaledCell;
     if (cell > 0 && cell % kFractions == 0) power = power * 92682 >> 16;
+    if (scaled) power = uint64_t{9 + 2 * (cell % kFractions)} << (kTopLog + 12);
     uint64_t size = (power * 102 - 65536 * 51) >> 16;  // in 1/256
-    if (cell == kCells - 1) size >>= 1;
+    if (scaled) size >>= 1;
     // In 1/8; the fractions are from -1/2 to 1/2.
-    const int fraction = cell == kCells - 1 ? 0 : 2 * static_cast<int>(cell % kFractions) - 3;
+    const int fraction = scaled ? 0 : 2 * static_cast<int>(cell % kFractions) - 3;
     const auto beyond = [&](int limit) {
       const uint64_t ratio = (4 * size << 16) / (4 * size + 32 * static_cast<uint64_t>(limit < 0 ? -limit : limit));
       const uint64_t square = ratio * ratio >> 16;
@@ -97,7 +103,7 @@ TUTTE_TABLE std::array<Distribution, kCells> kPriors = madeTable([] {
     const int outside = 32768 - beyond(-8 * kMostDirect - 4 - fraction);
     int last = 32768;
     for (int i = 0; i < kSymbols - 1; ++i) {
-      const int most = kClasses[i + 1].least - 1;
+      const int most = i < 7 ? -1 - kClasses[i].least : kClasses[i + 1].least;
       // Every symbol keeps a little.
       last = std::max(std::min(beyond(8 * most + 4 - fraction) + outside, last - 3), 3 * (kSymbols - 1 - i));
       priors[cell].above[i] = static_cast<uint16_t>(last);
@@ -127,7 +133,7 @@ class ClassCoder {
             kCoarseCells * kColumns,
             [](uint32_t i) {
               const uint32_t cell = i / kColumns;
-              return kPriors[cell == kCoarseCells - 1 ? kCells - 1
+              return kPriors[cell == kCoarseCells - 1 ? kScaledCell + 1
                                                       : cell / kFractions * kFractions * kCoarse + cell % kFractions];
             }),
         outside_(2, [](uint32_t) { return kEvenPrior; }) {}
@@ -135,36 +141,36 @@ class ClassCoder {
   template <class Port>
   [[gnu::always_inline]] int32_t code(Port& port, const Expectation& about, int32_t residual) {
     const uint32_t size = Expectation::half(about.estimate) + 4;
-    const int log = floorLog(size), shift = std::max(log - 7, 0);
+    const int log = floorLog(size), shift = std::max(log - kTopLog, 0);
     // Upwards is where the residual is likelier to be.
     const int32_t fraction = static_cast<int32_t>((about.fraction + 8) & 15) - 8;
-    const int32_t down = (about.side != 0 ? about.side : fraction) >> 31;
+    const auto down = static_cast<int32_t>((16 * int64_t{about.side} + fraction) >> 63);
     const auto part = std::min(static_cast<uint32_t>(((fraction ^ down) - down + 8) >> 2), kFractions - 1);
-    const auto octave = static_cast<uint32_t>(2 * log - 4) + (size >> (log - 1) & 1);
+    const uint32_t octave = static_cast<uint32_t>(2 * log) + (size >> (log - 1)) - 6;
     const bool scaled = shift > 0;
-    const uint32_t cell = scaled ? kCells - 1 : octave * kFractions + part;
+    const uint32_t cell = scaled ? kScaledCell + (size >> (log - 2)) - 4 : octave * kFractions + part;
     Distribution& first = firsts_[(cell * 3 + static_cast<uint32_t>(about.rank)) * 4 + about.members];
     Distribution& second =
-        two_ ? secondOf(about, scaled ? kCoarseCells - 1 : octave / kCoarse * kFractions + part, shift) : first;
+        two_ ? secondOf(about, scaled ? kCoarseCells - 1 : (octave >= kCoarse) * kFractions + part, shift) : first;
     const int32_t turned = (residual ^ down) - down;
-    const int32_t half = (1 << shift) >> 1;
     uint32_t symbol = 0;
-    if constexpr (Port::kWriting) symbol = classOf((turned + half) >> shift);
+    if constexpr (Port::kWriting) symbol = classOf(turned, shift);
     // The average of one is that one.
     symbol = port.symbol(Parts(first, second), symbol);
     approach(first, kTargets[symbol]);
     if (two_) approach(second, kTargets[symbol]);
     if (symbol == kSymbols - 1) [[unlikely]]
-      return ((codeOutside(port, turned + half, shift) - half) ^ down) - down;
+      return (codeOutside(port, turned, shift) ^ down) - down;
     const ResidualClass found = kClasses[symbol];
-    const int32_t least = found.least * (1 << shift) - half;
-    const uint32_t digits = port.bits(found.digits + shift, static_cast<uint32_t>(turned - least));
-    return ((least + static_cast<int32_t>(digits)) ^ down) - down;
+    const int32_t least = found.least * (1 << shift) + found.away, side = found.side ^ down;
+    const int digits = found.digits + (shift & -found.away);
+    const uint32_t rest = port.bits(digits, static_cast<uint32_t>((residual ^ side) - side - least));
+    return ((least + static_cast<int32_t>(rest)) ^ side) - side;
   }
 
  private:
-  static constexpr uint32_t kRows = 12, kCoarse = 4, kCoarseCells = kHalfOctaves / kCoarse * kFractions + 1;
-  static constexpr uint32_t kSpreads = 9, kNears = 5, kColumns = kSpreads * kNears;
+  static constexpr uint32_t kRows = 12, kCoarse = 5, kCoarseCells = 2 * kFractions + 1;
+  static constexpr uint32_t kSpreads = 7, kNears = 5, kColumns = kSpreads * kNears;
   static constexpr int kMostLength = 7;
   static constexpr int kLongest = 28;  // of residuals, in binary digits
 
@@ -179,18 +185,19 @@ class ClassCoder {
     return std::min(static_cast<uint32_t>(floorLog((Expectation::half(size) >> shift) + 4) - 2), count - 1);
   }
 
-  static uint32_t classOf(int32_t scaled) {
-    if (scaled < -kMostDirect || scaled > kMostDirect) return kSymbols - 1;
-    uint32_t symbol = 0;
-    while (kClasses[symbol + 1].least <= scaled) ++symbol;
-    return symbol;
+  static uint32_t classOf(int32_t turned, int shift) {
+    if (turned == 0) return kZeroClass;
+    const int32_t scaled = ((turned < 0 ? -turned : turned) - 1) >> shift;
+    uint32_t up = 1;
+    while (kZeroClass + up < kSymbols - 1 && kClasses[kZeroClass + up + 1].least <= scaled) ++up;
+    return kZeroClass + up == kSymbols - 1 || turned > 0 ? kZeroClass + up : kZeroClass - up;
   }
 
   // Farther than the classes go: how many digits this has and to which side, and the digits.
   template <class Port>
   [[gnu::noinline]] int32_t codeOutside(Port& port, int32_t residual, int shift) {
     Distribution& habit = outside_[shift > 0];
-    const int32_t below = -kMostDirect * (1 << shift) - 1, above = (kMostDirect + 1) * (1 << shift);
+    const int32_t below = -kMostDirect * (1 << shift) - 1, above = kMostDirect * (1 << shift) + 1;
     const auto far = static_cast<uint32_t>(residual < 0 ? below - residual : residual - above);
     const uint32_t number = (far >> shift) + 1;
     uint32_t symbol = 0;

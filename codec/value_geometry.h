@@ -6,20 +6,32 @@
 #include <bit>
 #include <cstdint>
 
+#include "codec/made_table.h"
+
 namespace tutte::values {
 
 using Vector3 = std::array<int64_t, 3>;
 
+/// The roots of 0 to 255, in 1/16, rounded up from above: kRoots[x] >= 16 sqrt(x + 1).
+TUTTE_TABLE std::array<uint16_t, 256> kRoots = madeTable([] {
+  std::array<uint16_t, 256> roots{};
+  uint16_t root = 0;
+  for (uint32_t x = 0; x < 256; ++x) {
+    while (uint32_t{root} * root < 256 * (x + 1)) ++root;
+    roots[x] = root;
+  }
+  return roots;
+});
+
 /// floor(sqrt(x)) for x below 2^62.
 inline int64_t squareRoot(uint64_t x) {
-  if (x == 0) return 0;
-  // From above, Newton's steps fall until they reach the root.
-  uint64_t root = uint64_t{1} << (static_cast<unsigned>(std::bit_width(x)) + 1) / 2;
-  for (;;) {
-    const uint64_t next = (root + x / root) >> 1;
-    if (next >= root) return static_cast<int64_t>(root);
-    root = next;
-  }
+  // From above, Newton's steps fall until they reach the root: twice from seven digits is enough for x below 2^48.
+  const int half = std::max(0, (static_cast<int>(std::bit_width(x)) - 7) >> 1);
+  uint64_t root = ((uint64_t{kRoots[x >> 2 * half]} << half) >> 4) + 1;
+  root = (root + x / root) >> 1;
+  if (half > 20) root = (root + x / root) >> 1;
+  root = (root + x / root) >> 1;
+  return static_cast<int64_t>(root - (root * root > x));
 }
 
 inline int64_t dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -48,15 +60,17 @@ inline Vector3 unit(Vector3 v) {
   v = shortened(v, 24);
   const int64_t length = squareRoot(static_cast<uint64_t>(dot(v, v)));
   if (length == 0) return {};
-  for (int64_t& x : v) x = (x << kUnitBits) / length;
+  const int64_t inverse = (int64_t{1} << 45) / length;
+  for (int64_t& x : v) x = x * inverse >> (45 - kUnitBits);
   return v;
 }
 
 /// The angle between two vectors below 2^21, 0 to 2^14 for 0 to 180 degrees, to half a percent.
 inline int64_t angle(const Vector3& a, const Vector3& b) {
-  const Vector3 product = shortened(cross(a, b), 30);
+  Vector3 product = cross(a, b);
   const int shift =
-      std::max(0, static_cast<int>(std::bit_width(static_cast<uint64_t>(largestMagnitude(cross(a, b))))) - 30);
+      std::max(0, static_cast<int>(std::bit_width(static_cast<uint64_t>(largestMagnitude(product)))) - 30);
+  for (int64_t& x : product) x >>= shift;
   const int64_t sine = squareRoot(static_cast<uint64_t>(dot(product, product)));
   const int64_t cosine = dot(a, b) >> shift;
   const int64_t flat = cosine < 0 ? -cosine : cosine;
@@ -80,12 +94,12 @@ inline Vector3 fromOctahedron(int64_t s, int64_t t, int64_t centre) {
   return unit({x, y, z});
 }
 
-/// The reverse, with kFraction binary digits: coordinates in [0, 2 * centre << fraction]. `v` is not 0 and below 2^30.
+/// The reverse, with kFraction binary digits: coordinates in [0, 2 * centre << fraction]. `v` is not 0 and below 2^24.
 inline std::array<int64_t, 2> toOctahedron(const Vector3& v, int64_t centre, int fraction) {
   const auto magnitude = [](int64_t x) { return x < 0 ? -x : x; };
   const int64_t sum = magnitude(v[0]) + magnitude(v[1]) + magnitude(v[2]);
-  const int64_t middle = centre << fraction;
-  const int64_t y = v[1] * middle / sum, z = v[2] * middle / sum;
+  const int64_t middle = centre << fraction, scale = (middle << 24) / sum;
+  const int64_t y = v[1] * scale >> 24, z = v[2] * scale >> 24;
   if (v[0] >= 0) return {y + middle, z + middle};
   return {y < 0 ? magnitude(z) : 2 * middle - magnitude(z), z < 0 ? magnitude(y) : 2 * middle - magnitude(y)};
 }

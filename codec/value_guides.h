@@ -12,12 +12,16 @@
 
 namespace tutte::values {
 
+/// How programs weigh the normals of the faces round a vertex. The numbers are part of the format.
+enum class Weighting : uint8_t { kEven = 0, kByAngle = 1, kByArea = 2 };
+inline constexpr int kWeightings = 3;
+
 /// For attributes without relatives.
 template <int C>
 struct NoGuide {
   static constexpr bool kWantsEdges = false;
 
-  NoGuide(const ValueGraph&, const Nodes<C>&, std::span<const int32_t>, int32_t) {}
+  NoGuide(const ValueGraph&, const Nodes<C>&, std::span<const int32_t>, int32_t, Weighting) {}
   template <class T>
   void refine(const Surroundings&, Stencil<C, T>&) {}
   void learn(Index, const Vec<C, int32_t>&) {}
@@ -52,7 +56,7 @@ class TexcoordGuide {
  public:
   static constexpr bool kWantsEdges = true;
 
-  TexcoordGuide(const ValueGraph& graph, const Nodes<2>& nodes, std::span<const int32_t> places, int32_t max)
+  TexcoordGuide(const ValueGraph& graph, const Nodes<2>& nodes, std::span<const int32_t> places, int32_t max, Weighting)
       : nodes_(nodes), places_(places), states_(graph.siteCount()), limit_(int64_t{max} << kFraction) {}
 
   void refine(const Surroundings& around, Stencil<2, int32_t>& stencil) {

@@ -19,8 +19,6 @@ inline constexpr int kSymbols = 16;
 /// falls from lane to lane by at least 1. In the last lane is the rate at which it learns, in 1/65536, negative.
 struct alignas(32) Distribution {
   std::array<uint16_t, kSymbols> above{};
-
-  uint32_t rate() const { return 65536u - above[kSymbols - 1]; }
 };
 
 /// Eight numbers of 16 bits with signs, and what is done with them.
@@ -35,8 +33,12 @@ inline void store(uint16_t* to, Eight value) { _mm_store_si128(reinterpret_cast<
 inline Eight splat(uint32_t value) { return _mm_set1_epi16(static_cast<int16_t>(value)); }
 inline Eight average(Eight a, Eight b) { return _mm_avg_epu16(a, b); }
 inline Eight withoutLast(Eight eight) { return _mm_and_si128(eight, _mm_setr_epi16(-1, -1, -1, -1, -1, -1, -1, 0)); }
+inline Eight splatLast(Eight eight) {
+  const __m128i last = _mm_shufflehi_epi16(eight, 0xFF);
+  return _mm_unpackhi_epi64(last, last);
+}
 inline Eight towards(Eight from, Eight to, Eight rate) {
-  return _mm_add_epi16(from, _mm_mulhi_epi16(_mm_sub_epi16(to, from), rate));
+  return _mm_add_epi16(from, _mm_mulhi_epi16(_mm_sub_epi16(from, to), rate));
 }
 inline uint32_t countAbove(Eight low, Eight high, Eight limit) {
   const __m128i above = _mm_packs_epi16(_mm_cmpgt_epi16(low, limit), _mm_cmpgt_epi16(high, limit));
@@ -52,8 +54,9 @@ inline void store(uint16_t* to, Eight value) { wasm_v128_store(to, value); }
 inline Eight splat(uint32_t value) { return wasm_i16x8_splat(static_cast<int16_t>(value)); }
 inline Eight average(Eight a, Eight b) { return wasm_u16x8_avgr(a, b); }
 inline Eight withoutLast(Eight eight) { return wasm_i16x8_replace_lane(eight, 7, 0); }
+inline Eight splatLast(Eight eight) { return wasm_i16x8_splat(wasm_i16x8_extract_lane(eight, 7)); }
 inline Eight towards(Eight from, Eight to, Eight rate) {
-  const v128_t way = wasm_i16x8_sub(to, from);
+  const v128_t way = wasm_i16x8_sub(from, to);
   const v128_t low = wasm_i32x4_extmul_low_i16x8(way, rate), high = wasm_i32x4_extmul_high_i16x8(way, rate);
   return wasm_i16x8_add(from, wasm_i16x8_shuffle(low, high, 1, 3, 5, 7, 9, 11, 13, 15));
 }
@@ -88,9 +91,12 @@ inline Eight average(const Eight& a, const Eight& b) {
 inline Eight withoutLast(const Eight& eight) {
   return each([&](size_t i) { return i == 7 ? 0 : eight[i]; });
 }
-/// from + (to - from) * rate / 65536, rounded down.
+inline Eight splatLast(const Eight& eight) {
+  return each([&](size_t) { return eight[7]; });
+}
+/// from + (to - from) * -rate / 65536, rounded down.
 inline Eight towards(const Eight& from, const Eight& to, const Eight& rate) {
-  return each([&](size_t i) { return from[i] + ((to[i] - from[i]) * rate[i] >> 16); });
+  return each([&](size_t i) { return from[i] + ((from[i] - to[i]) * rate[i] >> 16); });
 }
 /// How many of 16 falling numbers are above a limit.
 inline uint32_t countAbove(const Eight& low, const Eight& high, const Eight& limit) {
@@ -132,11 +138,10 @@ class Parts {
 
 /// Moves every lane towards `target`, at the rate in the last lane, and that lane, too. Rounded down.
 [[gnu::always_inline]] inline void approach(Distribution& distribution, const Distribution& target) {
-  const lanes::Eight rate = lanes::splat(distribution.rate());
-  for (size_t i = 0; i < kSymbols; i += 8) {
-    uint16_t* const at = &distribution.above[i];
-    lanes::store(at, lanes::towards(lanes::load(at), lanes::load(&target.above[i]), rate));
-  }
+  const lanes::Eight low = lanes::load(&distribution.above[0]), high = lanes::load(&distribution.above[8]);
+  const lanes::Eight rate = lanes::splatLast(high);
+  lanes::store(&distribution.above[0], lanes::towards(low, lanes::load(&target.above[0]), rate));
+  lanes::store(&distribution.above[8], lanes::towards(high, lanes::load(&target.above[8]), rate));
 }
 
 }  // namespace tutte::values

@@ -36,25 +36,17 @@ inline constexpr int32_t kLargestError = 1 << 20;
 template <int C>
 class Nodes {
  public:
-  explicit Nodes(Index sites)
-      : nodes_(std::make_unique_for_overwrite<Node<C>[]>(sites)),
-        picked_(std::make_unique_for_overwrite<uint8_t[]>(sites)) {}
+  explicit Nodes(Index sites) : nodes_(std::make_unique_for_overwrite<Node<C>[]>(sites)) {}
 
   const Node<C>& operator[](Index site) const { return nodes_[site]; }
-  /// A single parallelogram was its prediction.
-  bool picked(Index site) const { return picked_[site] != 0; }
 
   bool known(Index site) const { return site < count_; }
   Index count() const { return count_; }
 
-  void add(const Node<C>& node, bool picked) {
-    nodes_[count_] = node;
-    picked_[count_++] = picked;
-  }
+  void add(const Node<C>& node) { nodes_[count_++] = node; }
 
  private:
   std::unique_ptr<Node<C>[]> nodes_;
-  std::unique_ptr<uint8_t[]> picked_;
   Index count_ = 0;
 };
 

@@ -118,18 +118,31 @@ class ValueReader {
   }
 
   uint32_t bits(int count, uint32_t = 0) {
-    const uint64_t word = littleWord(&plain_[std::min(plain_taken_ >> 3, plain_size_)]) >> (plain_taken_ & 7);
-    plain_taken_ += static_cast<size_t>(count);
-    return static_cast<uint32_t>(word & ((uint64_t{1} << count) - 1));
+    if (plain_left_ < count) [[unlikely]]
+      refill();
+    const auto value = static_cast<uint32_t>(plain_word_ & ((uint64_t{1} << count) - 1));
+    plain_word_ >>= count;
+    plain_left_ -= count;
+    return value;
   }
 
   /// True once more was read than there is: the bytes are damaged. To be asked now and then.
-  bool overrun() const { return plain_taken_ > 8 * plain_size_; }
+  bool overrun() const { return taken() > 8 * plain_size_; }
 
   /// True when bytes are left, or the end is none that a writer would have made.
-  bool trailing() const { return at_ < decisions_.size() || state_ != 0 || 8 * plain_size_ > plain_taken_ + 7; }
+  bool trailing() const { return at_ < decisions_.size() || state_ != 0 || 8 * plain_size_ > taken() + 7; }
 
  private:
+  /// Plain bits that were read.
+  size_t taken() const { return plain_end_ - static_cast<size_t>(plain_left_); }
+
+  [[gnu::noinline]] void refill() {
+    const size_t at = taken();
+    plain_word_ = littleWord(&plain_[std::min(at >> 3, plain_size_)]) >> (at & 7);
+    plain_left_ = 64 - static_cast<int>(at & 7);
+    plain_end_ = at + static_cast<size_t>(plain_left_);
+  }
+
   void take(uint32_t begin, uint32_t size) {
     state_ = size * (state_ >> 16) + (state_ & 0xFFFF) - begin;
     if (state_ < kLowState) [[unlikely]]
@@ -158,7 +171,10 @@ class ValueReader {
   std::vector<uint8_t> plain_;  // and zeros behind, so that eight bytes can be read anywhere
   const size_t plain_size_;
   uint64_t state_ = 0;
-  size_t at_ = 0, plain_taken_ = 0;  // bytes; bits
+  size_t at_ = 0;            // in the decisions
+  uint64_t plain_word_ = 0;  // the next plain bits,
+  int plain_left_ = 0;       // so many,
+  size_t plain_end_ = 0;     // and where they end
 };
 
 }  // namespace tutte

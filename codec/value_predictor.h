@@ -20,9 +20,9 @@
 namespace tutte::values {
 
 /// Up to `C` components in numbers of type `T` (value_nodes.h). Values lie in [0, max]. With `points`, three components
-/// are points of a surface, and the third is corrected towards its tangent plane. `fast` does without that, without
-/// most predictions from far away, and without what a site's first components say about the others. With `echoes`,
-/// values may come again (value_echoes.h), and with `copies`, components follow their originals (value_copies.h).
+/// are points of a surface, and the third is corrected towards its tangent plane. `fast` does without that, and without
+/// most predictions from far away. With `echoes`, values may come again (value_echoes.h), and with `copies`, components
+/// follow their originals (value_copies.h).
 template <class Port, int C, class T, class Guide>
 class SitePredictor {
  public:
@@ -33,6 +33,7 @@ class SitePredictor {
     bool fast;
     bool echoes;
     bool copies;
+    Weighting weighting;
   };
 
   SitePredictor(Port& port, const ValueGraph& graph, std::span<const int32_t> places, const Options& options,
@@ -40,13 +41,12 @@ class SitePredictor {
       : port_(port),
         finder_(graph, Guide::kWantsEdges, !options.fast),
         nodes_(graph.siteCount()),
-        stencil_(nodes_),
-        guide_(graph, nodes_, places, options.max),
+        stencil_(nodes_, options.max),
+        guide_(graph, nodes_, places, options.max, options.weighting),
         residuals_(residuals),
         count_(options.components),
         max_(options.max),
-        tangent_(options.points && !options.fast),
-        fast_(options.fast) {
+        tangent_(options.points && !options.fast) {
     if (options.echoes) echoes_.emplace(graph, nodes_, count_);
     if (options.copies) copies_.emplace(graph, nodes_, options.points);
     picks_.fill(Chance(6160));
@@ -66,8 +66,10 @@ class SitePredictor {
       codeComponents();
     }
     last_ = wanted_;
-    for (int i = 0; i < width() && !Port::kWriting; ++i) value[i] = last_[i];
-    nodes_.add({last_, errors_}, picked_);
+    if constexpr (!Port::kWriting) {
+      for (int i = 0; i < width(); ++i) value[i] = last_[i];
+    }
+    nodes_.add({last_, errors_});
     guide_.learn(around.site, last_);
     if (echoes_) echoes_->learn(around.site);
     if (copies_) copies_->learn(last_);
@@ -91,7 +93,6 @@ class SitePredictor {
     if (!echoes_) return false;
     const Index earlier = echoes_->code(port_, site, stencil_.neighbours > 0, wanted_);
     if (earlier == kNone) return false;
-    picked_ = false;
     wanted_ = nodes_[earlier].value;
     for (int i = 0; i < width(); ++i) {
       const T off = wanted_[i] * kOne - stencil_.base[i];
@@ -108,13 +109,13 @@ class SitePredictor {
       all_error_ = typical_error_;
       return;
     }
-    const int64_t reciprocal = kReciprocal[count];
-    int64_t sum = 0;
-    for (size_t i = 0; i < kLanes; ++i) {
-      near_error_[i] = static_cast<int32_t>(stencil_.error_sum[i] * reciprocal >> 16);
-      sum += near_error_[i];
-    }
-    all_error_ = static_cast<int32_t>(perComponent(sum));
+    const uint64_t reciprocal = kReciprocal[count];
+    near_error_ = eachOf<C, int32_t>([&](size_t i) {
+      return static_cast<int32_t>(static_cast<uint32_t>(stencil_.error_sum[i]) * reciprocal >> 16);
+    });
+    int32_t sum = 0;
+    for (size_t i = 0; i < kLanes; ++i) sum += near_error_[i];
+    all_error_ = perComponent(sum);
     if (count == 1) all_error_ = (all_error_ + typical_error_) >> 1;
   }
 
@@ -126,30 +127,26 @@ class SitePredictor {
 
   // One parallelogram instead of the average: explicit, where there are several.
   void pick() {
-    picked_ = false;
-    const bool several = stencil_.member_count > 1;
-    spread_share_ = several ? 4 : stencil_.member_count;
-    spread_limit_ = several ? kMostSpread : 0;
-    estimate_shift_ = 3;
+    several_ = picked_ = 0;
     members_context_ = static_cast<uint32_t>(std::min(stencil_.member_count, 3));
     if (stencil_.member_count < 2) return;
+    several_ = -1;
     T spread = 0;
     for (size_t i = 0; i < kLanes; ++i) spread += stencil_.spread[i];
-    const int level = std::min(quarterLog(small(spread)) / 4, 11);
+    const int level = std::min((bitLength(small(spread) + 4) - 3) >> 1, 5);
     const uint32_t count = static_cast<uint32_t>(std::min(stencil_.member_count, 4)) - 2;
-    const auto around = static_cast<uint32_t>(std::min(stencil_.picked_neighbours, 3));
     const uint32_t within = stencil_.source == Source::kWithin ? 1 : 0;
-    Chance& chance = picks_[((within * 3 + count) * 4 + around) * 12 + static_cast<uint32_t>(level)];
+    Chance& chance = picks_[((within * 3 + count) * 2 + last_picked_) * 6 + static_cast<uint32_t>(level)];
     int choice = 0;
     if constexpr (Port::kWriting) choice = bestMember(chance);
-    if (!chance.code(port_, choice > 0)) return;
+    last_picked_ = chance.code(port_, choice > 0);
+    if (!last_picked_) return;
     int m = 0;
     std::array<Chance, Stencil<C, T>::kMostMembers>& row = indices_[count];
     while (m + 1 < stencil_.member_count && !row[m].code(port_, choice - 1 == m)) ++m;
     stencil_.base = stencil_.members[m];
     members_context_ = 0;
-    picked_ = true;
-    estimate_shift_ = 4;
+    picked_ = 1;
   }
 
   // 0: the average; m + 1: parallelogram m. Costs are in quarters of bits.
@@ -210,7 +207,7 @@ class SitePredictor {
     const auto error = static_cast<int32_t>(std::min<T>(off < 0 ? -off : off, kLargestError));
     errors_[i] = error;
     so_far.errors += error;
-    so_far.weighed = place == 0 ? 2 * error : so_far.errors;
+    so_far.weighed = place == 0 ? 2 * error : (so_far.weighed >> 1) + error;
     if (corrected) plane_.learn(so_far.raw[i]);
   }
 
@@ -228,11 +225,10 @@ class SitePredictor {
     const T apart = stencil_.lean[i] - prediction;
     about.side =
         plane_.bent() ? plane_.normal(i) : static_cast<int32_t>(sizeof(T) == 4 ? apart : std::clamp<T>(apart, -1, 1));
-    // Nothing is decided, because how many parallelograms there are is hard to foresee.
     const int32_t usual = all_error_ + about.near;
-    const int32_t around = (usual + (place == 0 || fast_ ? usual : so_far.weighed)) >> 2;
-    const int32_t spread = std::min(about.spread, 2 * around | spread_limit_);
-    about.estimate = (around * (8 - spread_share_) + spread * spread_share_) >> estimate_shift_;
+    const int32_t around = (usual + (place == 0 ? usual : so_far.weighed)) >> 2;
+    // Nothing is decided, because whether there are several parallelograms is hard to foresee.
+    about.estimate = (around + (((about.spread - around) & several_) >> 1)) >> picked_;
     if constexpr (kWantsAll) {
       about.all = all_error_;
       about.so_far = so_far.errors;
@@ -244,13 +240,17 @@ class SitePredictor {
   }
 
   void adaptTypicalError() {
-    int64_t sum = 0;
+    int32_t sum = 0;
     for (size_t i = 0; i < kLanes; ++i) sum += errors_[i];
-    const int64_t now = std::min<int64_t>(perComponent(sum), 4 * int64_t{typical_error_});
-    typical_error_ = static_cast<int32_t>(std::max<int64_t>(typical_error_ + ((now - typical_error_) >> 5), 16));
+    const int32_t now = std::min(perComponent(sum), 4 * typical_error_);
+    typical_error_ = std::max(typical_error_ + ((now - typical_error_) >> 5), 16);
   }
 
-  int64_t perComponent(int64_t sum) const { return width() == 3 ? sum * 21845 >> 16 : sum / width(); }
+  // Of a sum over them, which is below 2^23.
+  int32_t perComponent(int32_t sum) const {
+    constexpr std::array<int64_t, 5> kShares = {0, 65536, 32768, 21845, 16384};
+    return static_cast<int32_t>(sum * (C == 2 ? kShares[2] : kShares[static_cast<size_t>(count_)]) >> 16);
+  }
 
   static constexpr T kWidest = 1 << 25;
   static constexpr int32_t kMostSpread = 1 << 28;  // numbers of 32 bits never reach it
@@ -264,14 +264,15 @@ class SitePredictor {
   Residuals& residuals_;
   std::optional<Echoes<C>> echoes_;
   std::optional<Copies<C, T>> copies_;
-  std::array<Chance, 2 * 3 * 4 * 12> picks_;
+  std::array<Chance, 2 * 3 * 2 * 6> picks_;
   std::array<std::array<Chance, Stencil<C, T>::kMostMembers>, 3> indices_;
   TangentPlane plane_;
 
   const int count_;  // of components
   const T max_;
-  const bool tangent_, fast_;
+  const bool tangent_;
   bool damaged_ = false;
+  bool last_picked_ = false;  // a single parallelogram, at the last site that had several
   int32_t typical_error_ = 64;
   Vec<C, int32_t> last_{};
 
@@ -279,9 +280,8 @@ class SitePredictor {
   Vec<C, int32_t> wanted_{}, near_error_{}, errors_{};  // `wanted_` is the value
   int32_t all_error_ = 0;
   uint32_t members_context_ = 0;
-  int32_t spread_share_ = 0, spread_limit_ = 0;  // how much spreads count, in eighths; 0 or kMostSpread
-  int estimate_shift_ = 3;
-  bool picked_ = false;
+  int32_t several_ = 0;  // parallelograms: -1; 0: none or one
+  int picked_ = 0;       // 1: one of them is the base
 };
 
 }  // namespace tutte::values

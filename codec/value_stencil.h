@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -21,14 +22,18 @@ class Stencil {
  public:
   using Values = Vec<C, T>;
 
-  explicit Stencil(const Nodes<C>& nodes) : nodes_(nodes) {}
+  /// Values lie in [0, max].
+  Stencil(const Nodes<C>& nodes, T max)
+      : nodes_(nodes), normal_shift_(std::max(0, static_cast<int>(std::bit_width(static_cast<uint32_t>(max))) - 14)) {}
 
   /// `last` is used where nothing is known around the site.
   void gather(const Surroundings& around, const Vec<C, int32_t>& last, bool want_normal) {
-    sumNeighbours(around.neighbours);
-    makeMembers(around);
+    sumErrors(around.neighbours);
+    normal.fill(0);
     if constexpr (C == 4) {
-      if (want_normal) sumNormals(around);
+      want_normal ? makeMembers<true>(around) : makeMembers<false>(around);
+    } else {
+      makeMembers<false>(around);
     }
     settle(around, last);
   }
@@ -55,13 +60,12 @@ class Stencil {
   Source source = Source::kLast;
   int member_count = 0;  ///< parallelograms, if `source` is one of the first two
   std::array<Values, kMostMembers> members;
-  Values base;             ///< the prediction
-  Values spread;           ///< how much the predictions disagree
-  Values lean;             ///< another prediction: the value is likelier on its side of the base
-  int32_t neighbours = 0;  ///< known ones
-  int32_t picked_neighbours = 0;
+  Values base;                      ///< the prediction
+  Values spread;                    ///< how much the predictions disagree
+  Values lean;                      ///< another prediction: the value is likelier on its side of the base
+  int32_t neighbours = 0;           ///< known ones
   Values error_sum;                 ///< of the neighbours' errors
-  std::array<int64_t, 3> normal{};  ///< of the surroundings, not of unit length; 0: unknown
+  std::array<int32_t, 3> normal{};  ///< of the surroundings, not of unit length; 0: unknown
 
  private:
   static constexpr size_t kWidth = C;
@@ -74,38 +78,39 @@ class Stencil {
 
   const Vec<C, int32_t>& value(Index site) const { return nodes_[site].value; }
 
-  void sumNeighbours(std::span<const Index> around) {
-    Values errors{}, values{};
-    int32_t picked = 0;
+  void sumErrors(std::span<const Index> around) {
+    Values errors{};
     const Nodes<C>& nodes = nodes_;
     for (const Index site : around) {
       const Node<C>& node = nodes[site];
-      picked += nodes.picked(site);
       errors = each([&](size_t i) { return errors[i] + node.error[i]; });
-      values = each([&](size_t i) { return values[i] + node.value[i]; });
     }
-    picked_neighbours = picked;
     neighbours = static_cast<int32_t>(around.size());
     error_sum = errors;
-    neighbour_sum_ = values;
   }
 
   // Parallelograms within polygons are better than those across edges.
-  void makeMembers(const Surroundings& around) {
+  template <bool kWantNormal>
+  [[gnu::always_inline]] void makeMembers(const Surroundings& around) {
     member_count = 0;
     source = Source::kWithin;
     for (const Term& term : around.scaled) addScaled(term);
-    for (const Term& term : around.within) addParallelogram(term);
+    if constexpr (kWantNormal) {
+      for (const Term& term : around.planes) addNormal(value(term.a), value(term.b), value(term.x));
+    }
+    for (const Term& term : around.within) addParallelogram<kWantNormal>(term);
     if (member_count > 0) return;
-    for (const Term& term : around.across) addParallelogram(term);
+    for (const Term& term : around.across) addParallelogram<kWantNormal>(term);
     source = member_count > 0 ? Source::kAcrossTriangle : Source::kLast;
   }
 
-  void addParallelogram(const Term& term) {
+  template <bool kWantNormal>
+  [[gnu::always_inline]] void addParallelogram(const Term& term) {
     if (member_count == kMostMembers) return;
     const Vec<C, int32_t>&a = value(term.a), &b = value(term.b), &x = value(term.x), &y = value(term.y);
     members[static_cast<size_t>(member_count++)] =
         each([&](size_t i) { return (2 * (T{a[i]} + b[i]) - x[i] - y[i]) * (kOne / 2); });
+    if constexpr (kWantNormal) addNormal(b, a, x);
   }
 
   void addScaled(const Term& term) {
@@ -117,24 +122,17 @@ class Stencil {
     });
   }
 
-  void sumNormals(const Surroundings& around) {
-    normal.fill(0);
-    for (const Term& term : around.planes) addNormal(value(term.a), value(term.b), value(term.x));
-    for (const Term& term : around.within) addNormal(value(term.b), value(term.a), value(term.x));
-    for (const Term& term : around.across) addNormal(value(term.b), value(term.a), value(term.x));
-  }
-
-  void addNormal(const Vec<C, int32_t>& origin, const Vec<C, int32_t>& first, const Vec<C, int32_t>& second) {
-    std::array<int64_t, 3> u, w;
-    for (int i = 0; i < 3; ++i) {
-      u[i] = first[i] - origin[i];
-      w[i] = second[i] - origin[i];
+  // Unsigned, because many large faces may wrap round.
+  [[gnu::always_inline]] void addNormal(const Vec<C, int32_t>& origin, const Vec<C, int32_t>& first,
+                                        const Vec<C, int32_t>& second) {
+    std::array<uint32_t, 3> u, w;
+    for (size_t i = 0; i < 3; ++i) {
+      u[i] = static_cast<uint32_t>((first[i] - origin[i]) >> normal_shift_);
+      w[i] = static_cast<uint32_t>((second[i] - origin[i]) >> normal_shift_);
     }
-    for (int i = 0; i < 3; ++i) {
-      const int j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
-      // Unsigned, because thousands of faces around one vertex may wrap round.
-      normal[i] =
-          static_cast<int64_t>(static_cast<uint64_t>(normal[i]) + static_cast<uint64_t>(u[j] * w[k] - u[k] * w[j]));
+    for (size_t i = 0; i < 3; ++i) {
+      const size_t j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
+      normal[i] = static_cast<int32_t>(static_cast<uint32_t>(normal[i]) + u[j] * w[k] - u[k] * w[j]);
     }
   }
 
@@ -180,45 +178,48 @@ class Stencil {
         source = from;
         have_base = true;
       } else if (!have_spread) {
-        for (size_t i = 0; i < kWidth; ++i) {
-          const T off = prediction[i] - base[i];
-          spread[i] = off < 0 ? -off : off;
-        }
+        spread = each([&](size_t i) { return std::max(prediction[i] - base[i], base[i] - prediction[i]); });
         lean = prediction;
         have_spread = true;
       }
     };
     if (!around.over.empty()) offer(Source::kAcrossFace, meanOf(around.over));
-    if (!around.straight.empty()) offer(Source::kStraight, meanOf(around.straight));
-    if (neighbours > 0 && !have_spread) {
-      Values mean_value;
-      for (size_t i = 0; i < kWidth; ++i) {
-        mean_value[i] = static_cast<T>(mean(int64_t{neighbour_sum_[i]} * kOne, static_cast<uint32_t>(neighbours)));
-      }
-      offer(Source::kNeighbours, mean_value);
-    }
+    if (!have_spread && !around.straight.empty()) offer(Source::kStraight, meanOf(around.straight));
+    if (!have_spread && neighbours > 0) offer(Source::kNeighbours, meanOf(around.neighbours));
     if (!have_base) {
       source = Source::kLast;
-      for (size_t i = 0; i < kWidth; ++i) base[i] = lean[i] = last[i] * kOne;
+      base = lean = each([&](size_t i) { return last[i] * kOne; });
     }
   }
 
-  // Over a triangle's edge, half a side is added.
+  // In halves; over a triangle's edge, half a side less is added.
   Values meanOf(std::span<const Term> terms) const {
     Values sum{};
     for (const Term& term : terms) {
       const Vec<C, int32_t>&a = value(term.a), &b = value(term.b), &x = value(term.x);
-      for (size_t i = 0; i < kWidth; ++i) {
-        const T side = T{a[i]} - x[i];
-        sum[i] += term.y == 1 ? (2 * side + a[i] + b[i]) * (kOne / 2) : (side + b[i]) * kOne;
-      }
+      const T beside = 0 - static_cast<T>(term.y);
+      sum = each([&](size_t i) { return sum[i] + 2 * (T{a[i]} + b[i] - x[i]) + ((T{a[i]} - b[i]) & beside); });
     }
-    for (T& x : sum) x = static_cast<T>(mean(int64_t{x}, static_cast<uint32_t>(terms.size())));
-    return sum;
+    return meanOf(sum, kOne / 2, static_cast<uint32_t>(terms.size()));
+  }
+
+  Values meanOf(std::span<const Index> sites) const {
+    Values sum{};
+    for (const Index site : sites) {
+      const Vec<C, int32_t>& here = value(site);
+      sum = each([&](size_t i) { return sum[i] + here[i]; });
+    }
+    return meanOf(sum, kOne, static_cast<uint32_t>(sites.size()));
+  }
+
+  static Values meanOf(const Values& sum, T factor, uint32_t count) {
+    if (count == 1) return each([&](size_t i) { return sum[i] * factor; });
+    if (count == 2) return each([&](size_t i) { return (sum[i] * factor + 1) >> 1; });
+    return each([&](size_t i) { return static_cast<T>(mean(int64_t{sum[i]} * factor, count)); });
   }
 
   const Nodes<C>& nodes_;
-  Values neighbour_sum_;
+  const int normal_shift_;  // so that they fit
 };
 
 }  // namespace tutte::values

@@ -42,8 +42,11 @@ template <class Faces>
   Lists& lists = *lists_;
   const size_t sides = gather(faces);
   if constexpr (!Faces::kAllTriangles) {
-    const int inside = lists.scaled.size() + lists.within.size();
-    if ((inside > 0 ? inside : lists.across.size()) <= far_) lookFar(faces, sides);
+    const int inside = lists.scaled.size() + lists.within.size(), all = inside > 0 ? inside : lists.across.size();
+    if (all <= far_) {
+      lookOver(faces, sides);
+      if (all == 0 || lists.over.size() == 0) lookStraight(faces, sides);
+    }
     found.scaled = lists.scaled.take();
     found.within = lists.within.take();
     found.planes = lists.planes.take();
@@ -175,37 +178,46 @@ void SurroundingsFinder::addEdges(const Faces& faces, size_t side) {
   addEdge(graph_.site(faces.prev(prev)), b);
 }
 
-// Over the edges that are opposite or beside; weaker than what is within.
-template <class Faces>
-void SurroundingsFinder::lookFar(const Faces& faces, size_t end) {
+// Over the edges that are opposite or beside; weaker than what is within. Calls visit(a, c, beyond_a, beyond_c, beyond)
+// with the edge from a, a known side, to c, and corners of the face beyond: next to a and next to c, and any.
+template <class Faces, class Visit>
+[[gnu::always_inline]] inline void SurroundingsFinder::lookFar(const Faces& faces, size_t end, Visit visit) {
   const Sides& sides = lists_->sides;
   for (size_t side = 0; side < end; ++side) {
     const Index prev = sides.corner[side];
     if (prev == kNone || faces.degree(prev) <= 3) continue;
     const Index a = sides.site[side - 1], b = sides.site[side];
     if (known(a)) {
-      const Index next = faces.next(faces.next(prev)), beyond = graph_.twin(next);
-      if (beyond != kNone) {
-        lookFar(a, graph_.site(faces.next(next)), faces.next(faces.next(beyond)), faces.prev(beyond),
-                faces.degree(beyond));
-      }
+      const Index edge = faces.next(faces.next(prev)), beyond = graph_.twin(edge);
+      if (beyond != kNone) visit(a, graph_.site(faces.next(edge)), faces.next(faces.next(beyond)), faces.prev(beyond));
     }
     if (known(b)) {
-      const Index prev2 = faces.prev(prev), beyond = graph_.twin(prev2);
-      if (beyond != kNone) {
-        lookFar(b, graph_.site(prev2), faces.prev(beyond), faces.next(faces.next(beyond)), faces.degree(beyond));
-      }
+      const Index edge = faces.prev(prev), beyond = graph_.twin(edge);
+      if (beyond != kNone) visit(b, graph_.site(edge), faces.prev(beyond), faces.next(faces.next(beyond)));
     }
   }
 }
 
-// The face beyond the edge from a (the neighbour) to c: y lies beyond a, x beyond c.
-[[gnu::always_inline]] inline void SurroundingsFinder::lookFar(Index a, Index c, Index beyond_a, Index beyond_c,
-                                                               Index degree) {
-  Lists& lists = *lists_;
-  const Index x = graph_.site(beyond_c), y = graph_.site(beyond_a);
-  lists.over.add({a, c, x, degree == 3}, known(c) & known(x) & (lists.over.size() < kMostFar));
-  lists.straight.add({a, a, y, 0}, known(y) & (degree > 3) & (lists.straight.size() < kMostFar));
+// The neighbour a, and what lies across the edge to c from x, which lies beyond c.
+template <class Faces>
+void SurroundingsFinder::lookOver(const Faces& faces, size_t end) {
+  auto& over = lists_->over;
+  lookFar(
+      faces, end, [&](Index a, Index c, Index, Index beyond_c) __attribute__((always_inline)) {
+        const Index x = graph_.site(beyond_c);
+        over.add({a, c, x, faces.degree(beyond_c) == 3}, known(c) & known(x) & (over.size() < kMostFar));
+      });
+}
+
+// On from y, which lies beyond a, over a itself.
+template <class Faces>
+void SurroundingsFinder::lookStraight(const Faces& faces, size_t end) {
+  auto& straight = lists_->straight;
+  lookFar(
+      faces, end, [&](Index a, Index, Index beyond_a, Index) __attribute__((always_inline)) {
+        const Index y = graph_.site(beyond_a);
+        straight.add({a, a, y, 0}, known(y) & (faces.degree(beyond_a) > 3) & (straight.size() < kMostFar));
+      });
 }
 
 }  // namespace tutte::values

@@ -25,13 +25,14 @@ struct Edge {
 struct Surroundings {
   Index site;
   std::span<const Index> neighbours;
-  std::span<const Term> scaled;    ///< predictions within large polygons: a + (b - x) * y / 4096
-  std::span<const Term> within;    ///< in quads: a + b - (x + y) / 2, x and y being the same
-  std::span<const Term> across;    ///< over edges of triangles: a + b - (x + y) / 2
-  std::span<const Term> planes;    ///< of large polygons: a, b and x lie in them
-  std::span<const Term> over;      ///< a + b - x; or, for y = 1, (3 a + b) / 2 - x
-  std::span<const Term> straight;  ///< 2 a - x, b being a
-  std::span<const Edge> edges;     ///< round faces of the site
+  std::span<const Term> scaled;  ///< predictions within large polygons: a + (b - x) * y / 4096
+  std::span<const Term> within;  ///< in quads: a + b - (x + y) / 2, x and y being the same
+  std::span<const Term> across;  ///< over edges of triangles: a + b - (x + y) / 2
+  std::span<const Term> planes;  ///< of large polygons: a, b and x lie in them
+  std::span<const Term> over;    ///< a + b - x; or, for y = 1, (3 a + b) / 2 - x
+  std::span<const Term>
+      straight;                 ///< 2 a - x, b being a; only where there are not two others of those from `scaled` on
+  std::span<const Edge> edges;  ///< round faces of the site
 };
 
 /// Goes from site to site. The walk over the mesh has numbered its vertices as it met them, so that mostly a site's
@@ -117,9 +118,12 @@ class SurroundingsFinder {
   void visitLarge(const Faces& faces, size_t side);
   template <class Faces>
   void addEdges(const Faces& faces, size_t side);
+  template <class Faces, class Visit>
+  void lookFar(const Faces& faces, size_t end, Visit visit);
   template <class Faces>
-  void lookFar(const Faces& faces, size_t end);
-  void lookFar(Index a, Index c, Index beyond_a, Index beyond_c, Index degree);
+  void lookOver(const Faces& faces, size_t end);
+  template <class Faces>
+  void lookStraight(const Faces& faces, size_t end);
   void addEdge(Index from, Index to) { lists_->edges.add({from, to}, known(from) & known(to)); }
 
   bool known(Index site) const { return site < site_; }

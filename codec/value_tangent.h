@@ -15,10 +15,10 @@ class TangentPlane {
   TangentPlane() { gains_.fill(2048); }
 
   /// Lies at right angles to a normal of any length; 0: it is not known, and the components keep their order.
-  void turn(const std::array<int64_t, 3>& normal) {
-    std::array<uint64_t, 3> size;
+  void turn(const std::array<int32_t, 3>& normal) {
+    std::array<uint32_t, 3> size;
     for (size_t i = 0; i < 3; ++i) {
-      size[i] = normal[i] < 0 ? uint64_t{0} - static_cast<uint64_t>(normal[i]) : static_cast<uint64_t>(normal[i]);
+      size[i] = normal[i] < 0 ? 0u - static_cast<uint32_t>(normal[i]) : static_cast<uint32_t>(normal[i]);
     }
     const size_t last = std::max(size[0], size[1]) > size[2] ? size_t{size[0] <= size[1]} : 2;
     bent_ = size[last] != 0;
@@ -26,7 +26,7 @@ class TangentPlane {
     if (!bent_) return;
     const int shift = static_cast<int>(std::bit_width(size[last])) - 12;
     for (size_t i = 0; i < 3; ++i) {
-      normal_[i] = static_cast<int32_t>(shift > 0 ? normal[i] >> shift : normal[i] * (int64_t{1} << -shift));
+      normal_[i] = shift > 0 ? normal[i] >> shift : normal[i] * (1 << -shift);
     }
     inverse_ = (1 << 24) / normal_[last];
   }
@@ -41,7 +41,7 @@ class TangentPlane {
   /// How far the plane is from the prediction of the third component, as the others are `raw` away from theirs, and how
   /// much of that is to be believed. `scale`: the usual error; `situation`: below kSituations.
   template <class Values>
-  int64_t correction(const Values& raw, int32_t scale, uint32_t situation) {
+  [[gnu::always_inline]] int64_t correction(const Values& raw, int32_t scale, uint32_t situation) {
     const int64_t sum = normal_[order_[0]] * int64_t{raw[order_[0]]} + normal_[order_[1]] * int64_t{raw[order_[1]]};
     correction_ = -sum * inverse_ >> 24;
     length_ = bitLength(static_cast<uint32_t>(scale));
@@ -51,7 +51,7 @@ class TangentPlane {
   }
 
   /// The third component was `off` from its uncorrected prediction.
-  void learn(int64_t off) {
+  [[gnu::always_inline]] void learn(int64_t off) {
     if (std::max(off < 0 ? -off : off, correction_ < 0 ? -correction_ : correction_) > limit_) return;
     const int64_t error = off - (*gain_ * correction_ >> 12);
     const int64_t step = std::clamp<int64_t>(error * correction_ * 64 >> 2 * length_, -512, 512);

@@ -17,6 +17,7 @@ using values::DirectionGuide;
 using values::NoGuide;
 using values::SitePredictor;
 using values::TexcoordGuide;
+using values::Weighting;
 
 constexpr int32_t kMaxValue = (1 << 27) - 1, kMaxPoint = (1 << 20) - 1, kMaxTexcoord = (1 << 18) - 1;
 
@@ -28,6 +29,7 @@ struct Run {
   const ValueFormat& format;
   std::span<int32_t> values;
   Index most = kNone;  ///< sites that are coded at most
+  Weighting weighting = Weighting::kEven;
 
   Error labels(uint32_t count) {
     values::LabelCoder<Port> coder(port, sites.graph, count);
@@ -47,8 +49,8 @@ struct Run {
     const bool points = format.kind == ValueKind::kPoints, fast = format.profile == ValueProfile::kFast;
     values::Residuals residuals(format.profile == ValueProfile::kSmall, !fast);
     SitePredictor<Port, C, T, Guide> predictor(
-        port, sites.graph, sites.places, {format.components, format.max, points, fast, format.echoes, format.copies},
-        residuals);
+        port, sites.graph, sites.places,
+        {format.components, format.max, points, fast, format.echoes, format.copies, weighting}, residuals);
     const Error error = everySite([&] { predictor.code(values); });
     if (error != Error::kNone) return error;
     return predictor.damaged() ? Error::kMalformed : Error::kNone;
@@ -172,6 +174,22 @@ bool supports(const ValueSites& sites, const ValueFormat& format) {
 
 namespace {
 
+/// The one whose normals are nearest to the directions, whichever side these are on.
+Weighting bestWeighting(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> directions) {
+  if (sites.places.empty()) return Weighting::kEven;
+  std::array<int64_t, values::kWeightings> nearness{};
+  for (int k = 0; k < values::kWeightings; ++k) {
+    const auto normals = values::surfaceNormals(sites.graph, values::Places(sites.places), static_cast<Weighting>(k));
+    for (size_t site = 0; site < normals.size(); ++site) {
+      const values::Vector3 normal{normals[site][0], normals[site][1], normals[site][2]};
+      const auto direction = values::fromOctahedron(directions[2 * site], directions[2 * site + 1], format.max / 2);
+      const int64_t along = values::dot(direction, normal) >> 16;
+      nearness[k] += along * along;
+    }
+  }
+  return static_cast<Weighting>(std::ranges::max_element(nearness) - nearness.begin());
+}
+
 /// `head` becomes how much was written before the values.
 bool encodeSome(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, Index most,
                 ByteWriter& out, size_t& head) {
@@ -190,9 +208,14 @@ bool encodeSome(const ValueSites& sites, const ValueFormat& format, std::span<co
   } else {
     scratch.assign(values.begin(), values.end());
   }
+  Weighting weighting = Weighting::kEven;
+  if (format.kind == ValueKind::kDirection) {
+    weighting = bestWeighting(sites, format, values);
+    out.byte(static_cast<uint8_t>(weighting));
+  }
   head = out.bytes().size();
   ValueWriter port;
-  (void)Run<ValueWriter>{port, sites, coded, scratch, most}.numbers();
+  (void)Run<ValueWriter>{port, sites, coded, scratch, most, weighting}.numbers();
   std::move(port).finish(out);
   return true;
 }
@@ -226,9 +249,11 @@ Result<std::vector<int32_t>> decodeValues(const ValueSites& sites, const ValueFo
     if (!ranks) return Error::kMalformed;
     coded.max = ranks->largest();
   }
+  const uint8_t weighting = format.kind == ValueKind::kDirection ? in.byte() : 0;
+  if (weighting >= values::kWeightings) return Error::kMalformed;
   std::vector<int32_t> values(size_t{sites.graph.siteCount()} * format.components, 0);
   const Error error = readPort(in, [&](ValueReader& port) {
-    return Run<ValueReader>{port, sites, coded, values}.numbers();
+    return Run<ValueReader>{port, sites, coded, values, kNone, static_cast<Weighting>(weighting)}.numbers();
   });
   if (error != Error::kNone) return error;
   if (ranks && !fromRanks(*ranks, values)) return Error::kMalformed;

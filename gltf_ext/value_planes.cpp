@@ -81,7 +81,7 @@ struct Trial {
 
 /// What an encoder tries; the smallest is kept. On large meshes it is told from so many sites: positions show early
 /// what suits them, other attributes may change from part to part.
-constexpr Index kMostTried = 8192, kMostTriedPositions = 1024;
+constexpr Index kMostTried = 8192, kMostTriedPositions = 2048;
 
 std::vector<Trial> trialsFor(PlaneKind kind) {
   switch (kind) {
@@ -143,7 +143,7 @@ void writePlane(const ValueSites& sites, const Plane& plane, std::span<const int
   const Index most = plane.kind == PlaneKind::kPosition ? kMostTriedPositions : kMostTried;
   ValueFormat format = bestOf(sites, formats, values, most);
   if (repeats(values, plane.components)) {
-    ValueFormat echoing = format;
+    ValueFormat echoing = format.kind == ValueKind::kLabel ? formats.front() : format;
     echoing.echoes = true;
     format = bestOf(sites, std::array{echoing, format}, values, most);
   }

@@ -270,6 +270,18 @@ TEST(Values, UnsupportedFormatsAreRefused) {
   EXPECT_FALSE(supports(where, {1, 1 << 27, ValueProfile::kDefault, ValueKind::kPlain}));
 }
 
+TEST(Values, DirectionsNameAWeighting) {
+  const Sites sites(shapes::cube().mesh);
+  const ValueFormat format{2, 510, ValueProfile::kDefault, ValueKind::kDirection};
+  const std::vector<int32_t> places = someValues(sites, 3, 1000, 1);
+  ByteWriter out;
+  ASSERT_TRUE(encodeValues({sites.graph, places}, format, someValues(sites, 2, 510, 2), out));
+  std::vector<uint8_t> bytes = std::move(out).take();
+  EXPECT_TRUE(decodeValues({sites.graph, places}, format, bytes));
+  bytes[0] = 3;
+  EXPECT_EQ(decodeValues({sites.graph, places}, format, bytes).error(), Error::kMalformed);
+}
+
 /// Wedges with equal values on both sides of an edge that is no seam are one site.
 TEST(Values, WedgesJoinAcrossEdgesWithoutSeam) {
   const Result<Encoded> encoded = encode(shapes::cube().mesh);

@@ -4,6 +4,8 @@ from math import isqrt
 from models import clamp
 from value_models import bit_length, cut
 
+BY_ANGLE, BY_AREA = 1, 2
+
 
 def mean(total, count):
     if count == 1:
@@ -36,7 +38,7 @@ def shortened(v, bits):
 def unit(v):
     v = shortened(v, 24)
     length = isqrt(dot(v, v))
-    return [cut(x << 14, length) for x in v] if length else [0, 0, 0]
+    return [x * (2**45 // length) >> 31 for x in v] if length else [0, 0, 0]
 
 
 def angle(a, b):
@@ -125,8 +127,8 @@ class Textures:
         self.turns[site] = self.last_turn
 
 
-def surface_normals(graph, places):
-    sums = [[[0] * 3 for _ in range(3)] for _ in range(graph.site_count)]
+def surface_normals(graph, places, weighting):
+    sums = [[0] * 3 for _ in range(graph.site_count)]
 
     def between(start, end):
         return minus(places[3 * end:3 * end + 3], places[3 * start:3 * start + 3])
@@ -135,58 +137,57 @@ def surface_normals(graph, places):
         if degree < 3:
             continue
         normal = [0, 0, 0]
-        for c in range(begin + 1, begin + degree - 1):
+        for c in range(begin + 1, begin + min(degree, 2**20) - 1):
             part = cross(*(between(graph.site[begin], graph.site[x]) for x in (c, c + 1)))
-            normal = shortened([x + y for x, y in zip(normal, part)], 60)
-        even, area = unit(normal), shortened(normal, 46)
+            normal = [x + y for x, y in zip(normal, part)]
+        normal = shortened(normal, 46) if weighting == BY_AREA else unit(normal)
         for c in range(begin, begin + degree):
-            site = graph.site[c]
-            turn = angle(*(between(site, graph.site[x]) for x in (graph.next[c], graph.prev[c])))
-            for i in range(3):
-                sums[site][0][i] += even[i]
-                sums[site][1][i] += even[i] * turn
-                sums[site][2][i] = clamp(sums[site][2][i] + area[i], -2**61, 2**61)
-    return [[unit(normal) for normal in three] for three in sums]
+            site, weight = graph.site[c], 1
+            if weighting == BY_ANGLE:
+                weight = angle(*(between(site, graph.site[x]) for x in (graph.next[c], graph.prev[c])))
+            sums[site] = [(x + y * weight + 2**63) % 2**64 - 2**63 for x, y in zip(sums[site], normal)]
+    return [unit(normal) for normal in sums]
 
 
 class Directions:
     def __init__(self, coder, places):
         self.coder, self.centre, graph = coder, coder.max // 2, coder.graph
-        self.surface = surface_normals(graph, places) if places else [[[0] * 3] * 3] * graph.site_count
-        self.surface = [list(three) for three in self.surface]
+        self.surface = [[0] * 3] * graph.site_count
+        if places:
+            self.surface = surface_normals(graph, places, coder.weighting)
         self.inward, self.last_inward = [False] * graph.site_count, False
         self.direction, self.errors = {}, {}
 
     def turn(self, site, inward):
         if self.inward[site] != inward:
             self.inward[site] = inward
-            self.surface[site] = [[-x for x in normal] for normal in self.surface[site]]
+            self.surface[site] = [-x for x in self.surface[site]]
 
     def refine(self, site, around):
         neighbours = around.neighbours
         count = len(neighbours)
         total = [sum(self.direction[s][i] for s in neighbours) for i in range(3)]
-        deviation = [sum(self.direction[s][i] - self.surface[s][0][i] for s in neighbours) for i in range(3)]
-        errors = [sum(self.errors[s][k] for s in neighbours) for k in range(5)]
+        deviation = [sum(self.direction[s][i] - self.surface[s][i] for s in neighbours) for i in range(3)]
+        errors = [sum(self.errors[s][k] for s in neighbours) for k in range(3)]
         inward = sum(self.inward[s] for s in neighbours)
         self.turn(site, 2 * inward > count if count else self.last_inward)
-        surface = self.surface[site]
-        deviating = [x + (cut(y, count) if count else 0) for x, y in zip(surface[0], deviation)]
-        wanted = [normal if any(normal) else total for normal in surface]
-        self.bases = [self.projected(v, around.base) for v in wanted + [deviating, total if count else deviating]]
-        if not count and not any(surface[0]):
+        normal = self.surface[site]
+        deviating = [x + (mean(y, count) if count else 0) for x, y in zip(normal, deviation)]
+        wanted = [normal if any(normal) else total, deviating, total if count else deviating]
+        self.bases = [self.projected(v, around.base) for v in wanted]
+        if not count and not any(normal):
             return
-        best, second = sorted(range(5), key=lambda k: errors[k])[:2]
+        best, second = sorted(range(3), key=lambda k: errors[k])[:2]
         around.source, around.members, around.base = 1, [self.bases[best]], self.bases[best]
         around.lean = self.bases[second]
         around.spread = [abs(x) for x in minus(around.lean, around.base)]
 
     def projected(self, v, fallback):
-        v = shortened(v, 24)
         if not any(v):
             return fallback
-        total, middle = sum(abs(x) for x in v), self.centre << 4
-        y, z = cut(v[1] * middle, total), cut(v[2] * middle, total)
+        middle = self.centre << 4
+        scale = (middle << 24) // sum(abs(x) for x in v)
+        y, z = v[1] * scale >> 24, v[2] * scale >> 24
         if v[0] >= 0:
             return [y + middle, z + middle]
         return [abs(z) if y < 0 else 2 * middle - abs(z), abs(y) if z < 0 else 2 * middle - abs(y)]
@@ -198,7 +199,7 @@ class Directions:
         x = self.centre - abs(y) - abs(z)
         fold = max(-x, 0)
         self.direction[site] = unit([x, y + (fold if y < 0 else -fold), z + (fold if z < 0 else -fold)])
-        along = dot(self.direction[site], self.surface[site][0])
+        along = dot(self.direction[site], self.surface[site])
         if along < 0:
             self.turn(site, not self.inward[site])
         if along:

@@ -143,8 +143,8 @@ class MixedChance:
 
 # D.4.8 Residuals
 
-LEAST = (-15, -11, -7, -5, -3, -2, -1, 0, 1, 2, 3, 4, 6, 8, 12, 16)
-DIGITS = (2, 2, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1, 2, 2)
+LEAST = (0, 1, 2, 3, 5, 7, 11, 15)
+DIGITS = (0, 0, 0, 1, 1, 2, 2)
 
 
 def prior(power, halved, fraction):
@@ -157,17 +157,18 @@ def prior(power, halved, fraction):
 
     outside, last, above = 32768 - beyond(-124 - fraction), 32768, []
     for i in range(15):
-        last = max(min(beyond(8 * LEAST[i + 1] - 4 - fraction) + outside, last - 3), 3 * (15 - i))
+        most = -1 - LEAST[6 - i] if i < 7 else LEAST[i - 7]
+        last = max(min(beyond(8 * most + 4 - fraction) + outside, last - 3), 3 * (15 - i))
         above.append(last)
     return above
 
 
 def priors():
     result, power = [], 84990
-    for _ in range(12):
+    for _ in range(10):
         result.append([prior(power, 0, 2 * part - 3) for part in range(4)])
         power = power * 92682 >> 16
-    return result + [[prior(power, 1, 0)] * 4]
+    return result + [[prior((9 + 2 * part) << 18, 1, 0) for part in range(4)]]
 
 
 PRIORS = priors()
@@ -190,24 +191,29 @@ class Classes:
         self.first, self.second, self.longer = {}, {}, Chance()
         self.outside = [Habit([2048 * (15 - i) for i in range(15)]) for _ in range(2)]
 
-    def read(self, stream, octave, part, down, rank, members, spread, near):
-        """octave: in halves; spread, near: sizes."""
-        shift = max((octave >> 1) - 5, 0)
-        cell = min(octave, 12)
-        part = part if cell < 12 else 0
-        coarse = cell // 4
-        columns = [min(log4((size >> 1) >> shift) // 4, most) for size, most in ((spread, 8), (near, 4))]
+    def read(self, stream, level, part, down, rank, members, spread, near):
+        """level: of the estimate; spread, near: sizes."""
+        shift = max(level // 4 - 4, 0)
+        cell, columns = min(level // 2, 10), []
+        for size, most in ((spread, 6), (near, 4)):
+            columns.append(min(log4((size >> 1) >> shift) // 4, most))
+        coarse = (cell // 5, 0 if shift else part)
+        if shift:
+            part = level % 4
         first = self.first.setdefault((cell, part, rank, members), Habit(PRIORS[cell][part]))
-        second = self.second.setdefault((coarse, part, *columns), Habit(PRIORS[4 * coarse][part]))
+        second = self.second.setdefault((*coarse, *columns), Habit(PRIORS[5 * coarse[0]][1 if shift else part]))
         if self.fast:
             symbol = stream.symbol(first.above)
         else:
             symbol = stream.symbol([a + b + 1 >> 1 for a, b in zip(first.above, second.above)])
             second.learn(symbol)
         first.learn(symbol)
-        half = 1 << shift >> 1
+        if symbol == 7:
+            return 0
         if symbol < 15:
-            residual = (LEAST[symbol] << shift) - half + stream.plain(DIGITS[symbol] + shift)
+            row = abs(symbol - 7) - 1
+            residual = 1 + (LEAST[row] << shift) + stream.plain(DIGITS[row] + shift)
+            below = symbol < 7
         else:
             habit = self.outside[min(shift, 1)]
             found = stream.symbol(habit.above)
@@ -215,10 +221,9 @@ class Classes:
             length = found >> 1
             while 7 <= length < 28 - shift and self.longer.read(stream):
                 length += 1
-            far = (2**length + stream.plain(length) - 1) << shift
-            far += stream.plain(shift)
-            residual = (-(15 << shift) - 1 - far if found & 1 else (16 << shift) + far) - half
-        return -residual if down else residual
+            residual = 1 + (2**length + stream.plain(length) + 14 << shift) + stream.plain(shift)
+            below = found & 1
+        return residual if below == down else -residual
 
 
 class Lengths:

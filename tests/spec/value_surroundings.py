@@ -1,6 +1,6 @@
 """What is known around a site: EXTENSION_SPEC.md, D.4.6."""
 from value_geometry import mean
-from value_models import FAST
+from value_models import FAST, bit_length
 
 POINTS = 1
 WITHIN, ACROSS, FACE, STRAIGHT, AROUND, LAST = range(6)
@@ -36,12 +36,10 @@ class Surroundings:
             elif degree > 4:
                 self.polygon(polygons, normals, degree, a, b, c, d, n, p)
         self.source = WITHIN if polygons or quads else ACROSS if triangles else LAST
-        for a, b, x, y in quads + triangles:
-            normals.append((b, a, x))
-        chosen = quads if self.source == WITHIN else triangles
-        self.members = (polygons + [self.parallelogram(*f) for f in chosen])[:4]
+        chosen = (quads if self.source == WITHIN else triangles)[:max(4 - len(polygons), 0)]
+        self.members = polygons[:4] + [self.parallelogram(*f) for f in chosen]
         if coder.kind == POINTS:
-            for origin, first, second in normals:
+            for origin, first, second in normals + [(b, a, x) for a, b, x, _ in chosen]:
                 self.add_normal(values[origin], values[first], values[second])
         self.settle(site)
 
@@ -72,11 +70,12 @@ class Surroundings:
         return [(2 * (v[a][i] + v[b][i]) - v[x][i] - v[y][i]) * 8 for i in range(self.m)]
 
     def add_normal(self, origin, first, second):
-        u = [first[i] - origin[i] for i in range(3)]
-        w = [second[i] - origin[i] for i in range(3)]
+        n = max(bit_length(self.coder.max) - 14, 0)
+        u = [first[i] - origin[i] >> n for i in range(3)]
+        w = [second[i] - origin[i] >> n for i in range(3)]
         for i in range(3):
             j, k = (i + 1) % 3, (i + 2) % 3
-            self.normal[i] += u[j] * w[k] - u[k] * w[j]
+            self.normal[i] = (self.normal[i] + u[j] * w[k] - u[k] * w[j] + 2**31) % 2**32 - 2**31
 
     def replace(self, prediction):
         self.base = self.lean = prediction

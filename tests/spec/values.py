@@ -16,15 +16,16 @@ PLAIN, POINTS, TEXTURE, DIRECTION, LABEL = range(5)
 # D.4.7 Values
 
 class Coder:
-    def __init__(self, graph, m, maximum, kind, profile, echoes, copies, stream, places):
+    def __init__(self, graph, m, maximum, kind, profile, echoes, copies, stream, places, weighting):
         self.graph, self.m, self.max, self.kind, self.stream = graph, m, maximum, kind, stream
         self.profile, self.coded = profile, 0
-        self.values, self.errors, self.picked = {}, {}, {}
+        self.values, self.errors, self.last_picked = {}, {}, False
         self.last, self.typical = [0] * m, 64
         self.picks, self.indices, self.gains = Chances(6160), Chances(), {}
         self.residuals = Lengths() if profile == SMALL else Classes(profile == FAST)
         self.echoes = Echoes(self) if echoes else None
         self.copies = Copies(graph.mesh, graph.site, self.values, m == 3 and kind == POINTS) if copies else None
+        self.weighting = weighting
         self.guide = {TEXTURE: Textures, DIRECTION: Directions}.get(kind, lambda *_: None)(self, places)
 
     def run(self):
@@ -47,11 +48,11 @@ class Coder:
             self.near = [self.all] * self.m
         earlier = self.echoes.read(self.stream, site, bool(around.neighbours)) if self.echoes else None
         if earlier is None:
-            value, errors, picked = self.components(around, *self.pick(around))
+            value, errors = self.components(around, *self.pick(around))
         else:
-            value, picked = self.values[earlier], False
+            value = self.values[earlier]
             errors = [min(abs(16 * value[i] - around.base[i]), 2**20) for i in range(self.m)]
-        self.values[site], self.errors[site], self.picked[site], self.last = value, errors, picked, value
+        self.values[site], self.errors[site], self.last = value, errors, value
         if self.guide:
             self.guide.learn(site, value)
         if self.echoes:
@@ -78,10 +79,9 @@ class Coder:
         count = len(around.members)
         if count < 2:
             return around.base, min(count, 3), False
-        level = min(log4(sum(around.spread)) // 4, 11)
-        flagged = min(sum(self.picked[s] for s in around.neighbours), 3)
-        row = min(count, 4)
-        if not self.picks[around.source == WITHIN, row, flagged, level].read(self.stream):
+        level, row = min(bit_length(sum(around.spread) + 4) - 3 >> 1, 5), min(count, 4)
+        self.last_picked = self.picks[around.source == WITHIN, row, self.last_picked, level].read(self.stream)
+        if not self.last_picked:
             return around.base, min(count, 3), False
         k = 0
         while k + 1 < count and not self.indices[row, k].read(self.stream):
@@ -95,7 +95,8 @@ class Coder:
             order.append(order.pop(largest))
             shift = bit_length(abs(around.normal[largest])) - 12
             normal = [x >> shift if shift > 0 else x << -shift for x in around.normal]
-        value, errors, raw, so_far = [0] * self.m, [0] * self.m, [0] * self.m, 0
+        value, errors, raw = [0] * self.m, [0] * self.m, [0] * self.m
+        so_far = weighed = 0
         for rank, i in enumerate(order):
             prediction, gain = base[i], None
             if rank == 2 and normal:
@@ -106,14 +107,15 @@ class Coder:
                 prediction += self.gains.setdefault(gain, 2048) * correction >> 12
             rounded = clamp(prediction + 8 >> 4, 0, self.max)
             side = normal[i] if normal else around.lean[i] - prediction
-            number = rounded + self.residual(around, i, min(rank, 2), so_far, prediction, side, base, members, picked)
+            number = rounded + self.residual(around, i, min(rank, 2), so_far, weighed, prediction, side, members, picked)
             require(0 <= number <= self.max, 'a value outside its range')
             value[i], raw[i] = number, 16 * number - base[i]
             errors[i] = min(abs(16 * number - prediction), 2**20)
             so_far += errors[i]
+            weighed = (weighed >> 1) + errors[i] if rank else 2 * errors[i]
             if gain:
                 self.adapt(gain, raw[i], correction)
-        return value, errors, picked
+        return value, errors
 
     def adapt(self, gain, off, correction):
         limit = 4 * self.all + 64
@@ -123,15 +125,12 @@ class Coder:
         step = error * correction * 64 >> 2 * bit_length(self.all)
         self.gains[gain] = clamp(self.gains[gain] + clamp(step, -512, 512), -512, 4608)
 
-    def residual(self, around, i, rank, so_far, prediction, side, base, members, picked):
+    def residual(self, around, i, rank, so_far, weighed, prediction, side, members, picked):
         near, count = self.near[i], len(around.members)
         spread = min(around.spread[i], 2**28)
-        estimate = (self.all + near >> 1 if rank == 0 or self.profile == FAST else
-                    self.all + near + (2 if rank == 1 else 1) * so_far >> 2)
+        estimate = self.all + near + weighed >> 2 if rank else self.all + near >> 1
         if count > 1:
             estimate = estimate + spread >> 1
-        elif count == 1:
-            estimate = 7 * estimate + min(spread, 2 * estimate) >> 3
         if picked:
             estimate >>= 1
         level = log4(estimate >> 1)
@@ -139,7 +138,7 @@ class Coder:
             fraction = (prediction + 8 & 15) - 8
             down = side < 0 or side == 0 and fraction < 0
             part = min((-fraction if down else fraction) + 8 >> 2, 3)
-            return self.residuals.read(self.stream, level // 2, part, down, rank, members, spread, near)
+            return self.residuals.read(self.stream, level, part, down, rank, members, spread, near)
         level, sign = min(level, 63), ((prediction & 15) >> 1, (side > 0) - (side < 0), rank)
 
         def relative(size, low, high):
@@ -202,8 +201,12 @@ def decode(mesh, sites, site_count, m, maximum, head, data, places):
     if ranked:
         lists, at = read_ranks(data, m, maximum)
         maximum = max(len(ranks) for ranks in lists) - 1
+    weighting = 0
+    if kind == DIRECTION:
+        require(data and data[0] < 3, 'weighting')
+        weighting, at = data[0], 1
     stream = ValueStream(data, at)
-    values = Coder(graph, m, maximum, kind, profile, echoes, copies, stream, places).run()
+    values = Coder(graph, m, maximum, kind, profile, echoes, copies, stream, places, weighting).run()
     stream.finish()
     if not lists:
         return values
