@@ -9,131 +9,184 @@
 
 #include "codec/mesh.h"
 #include "codec/mixed_flag.h"
-#include "codec/umbrella_links.h"
+#include "codec/umbrella_ways.h"
 #include "codec/value_model.h"
 
 namespace tutte {
 
-/// Codes one flag per edge-end ("the two corners differ"), edge by edge in the order of their first corners. Around a
-/// closed umbrella the flags cannot be 1 exactly once: the last one is implied when it would otherwise be. O(corners).
+/// What is known of an edge-end. Without kAsked it is also what contexts see of it.
+enum EndState : uint8_t {
+  kNoEnd = 0,   ///< nothing differs here, and nobody asks
+  kJoined = 1,  ///< the two corners are alike
+  kParted = 2,  ///< they differ
+  kAsked = 4,   ///< it is to be coded which of these it is, unless there is no end, but a boundary
+};
+
+/// Codes which edge-ends are parted: first which umbrellas are *touched*, that is, have any, then which of their ends,
+/// edge by edge. Around a closed umbrella there cannot be exactly one. O(corners).
 template <class Port>
 class EndFlags {
  public:
-  /// Only ends with candidates[end] == 1 are coded; of the others, those with given[end] == 1 are known to be 1 from
-  /// the start (no span: none), the rest are 0. All arguments must outlive this object.
-  EndFlags(Port& port, const Connectivity& mesh, const UmbrellaLinks& links, std::span<const uint8_t> candidates,
-           std::span<const uint8_t> given = {})
-      : port_(port), mesh_(mesh), links_(links), candidates_(candidates), given_(given), around_(mesh.umbrella_count) {
-    for (Index u = 0; u < mesh.umbrella_count; ++u) around_[u].open = links.open[u];
-    for (Index corner = 0; corner < candidates.size(); ++corner) {
-      Around& around = around_[mesh.umbrellas[corner]];
-      around.left += candidates[corner];
-      if (around.corners < kMostCorners) ++around.corners;
-      if (!given.empty() && given[corner]) around.parted = static_cast<uint8_t>(std::min(around.parted + 1, 2));
-    }
+  /// `ends`: per corner its EndState; what is asked and parted becomes kParted. `truth`: per corner, 1 for parted ends;
+  /// a decoder passes nothing. All arguments must outlive this object.
+  EndFlags(Port& port, const UmbrellaWays& ways, std::vector<uint8_t>& ends, std::span<const uint8_t> truth = {})
+      : port_(port), ways_(ways), ends_(ends), truth_(truth), slots_(ways.mesh().umbrella_count, kUnknown) {
+    if constexpr (Port::kWriting) findTouched();
     quiet_.fill(values::Chance(65536 / 16));
   }
 
-  /// Writer: `flags` are coded. Reader: `flags` are filled in. One flag per corner.
-  void code(std::vector<uint8_t>& flags) {
-    known_.assign(flags.size(), 0);
-    for (size_t end = 0; end < given_.size(); ++end) {
-      if (given_[end]) known_[end] = 2, flags[end] = 1;
-    }
-    for (Index corner = 0; corner < flags.size(); ++corner) {
-      const Index twin = mesh_.twins[corner];
-      if (twin == kNone || twin < corner) continue;
-      if (candidates_[corner]) flags[corner] = end(corner, twin, flags[corner]);
-      if (candidates_[twin]) flags[twin] = end(twin, corner, flags[twin]);
+  void code() {
+    codeTouched();
+    for (Index corner = 0; corner < ends_.size(); ++corner) {
+      if (slots_[ways_.umbrella(corner)] < kTouched || !isAsked(corner)) continue;
+      const Index twin = ways_.twin(corner);
+      codeEnd(corner, twin);
+      codeEnd(twin, corner);
     }
   }
+
+  /// Afterwards.
+  bool isTouched(Index umbrella) const { return slots_[umbrella] >= kTouched; }
 
  private:
-  static constexpr uint8_t kMostCorners = 7;
+  // Of an umbrella: whether its ends are known to be all joined, or where in `around_` it is.
+  static constexpr Index kUnknown = 0, kQuiet = 1, kTouched = 2;
 
-  /// What is known about one umbrella.
+  /// What is known about a touched umbrella.
   struct Around {
-    Index left = 0;      ///< ends that are still to come
-    uint8_t parted = 0;  ///< ends that were 1, up to 2
-    uint8_t open = 0;
-    uint8_t corners = 0;  ///< up to kMostCorners
+    Index left = 0;        ///< asked ends that are still to come
+    uint8_t parted = 0;    ///< ends that are, up to 2
+    uint8_t required = 1;  ///< parted ends that must still come
   };
 
-  uint8_t end(Index corner, Index far, uint8_t flag) {
-    Around& here = around_[mesh_.umbrellas[corner]];
-    const Around& there = around_[mesh_.umbrellas[far]];
-    if (here.left == 1 && !here.open && here.parted < 2) {
-      flag = here.parted;
-    } else if (here.parted == 0 && there.parted == 0) {
-      flag = quiet(here, there, known_[far]).code(port_, flag);
-    } else {
-      flag = mixed_.code(port_, contextsOf(corner, far, here, there), known_[far], flag);
+  bool isAsked(Index end) const { return ends_[end] == kAsked && ways_.twin(end) != kNone; }
+
+  void findTouched() {
+    touched_.resize(slots_.size());
+    for (Index end = 0; end < ends_.size(); ++end) {
+      if (isAsked(end)) touched_[ways_.umbrella(end)] |= truth_[end];
     }
-    here.parted = static_cast<uint8_t>(std::min(here.parted + flag, 2));
+  }
+
+  // In the order in which asked ends of umbrellas come.
+  void codeTouched() {
+    uint32_t row = 0;  // of umbrellas, as corners follow each other
+    for (Index corner = 0; corner < ends_.size(); ++corner) {
+      Index& slot = slots_[ways_.umbrella(corner)];
+      if (slot == kUnknown && isAsked(corner)) slot = codeUmbrella(corner, row);
+      row = row * 2 + (slot >= kTouched);
+    }
+  }
+
+  Index codeUmbrella(Index corner, uint32_t row) {
+    const bool truth = Port::kWriting && touched_[ways_.umbrella(corner)];
+    const Index next = ways_.next(corner), prev = ways_.prev(corner);
+    const uint32_t before = stateAt(prev), behind = stateAt(next);
+    const bool quiet = row % kRows == 0 && before != kTouched && behind != kTouched;
+    const bool touched = quiet ? quiet_[before * 3 + behind].code(port_, truth)
+                               : touches_.code(port_, contextsOf(corner, row % kRows), 0, truth);
+    if (!touched) return kQuiet;
+    around_.push_back(lookAround(corner));
+    return kTouched + static_cast<Index>(around_.size() - 1);
+  }
+
+  std::array<uint32_t, 3> contextsOf(Index corner, uint32_t row) const {
+    const Index next = ways_.next(corner), prev = ways_.prev(corner);
+    const Index left = ways_.twin(prev), right = ways_.twin(corner);
+    const uint32_t before = stateAt(prev), behind = stateAt(next), opposite = stateAt(ways_.next(next));
+    const uint32_t beyond =
+        (left == kNone ? 3 : stateAt(ways_.next(ways_.next(left)))) * 4 + stateAt(ways_.prev(right));
+    const uint32_t face = (before * 3 + behind) * 3 + opposite;
+    return {face * 16 + beyond, (row * 3 + behind) * 3 + opposite,
+            ((before * 3 + behind) * 2 + (left == kNone)) * 16 + row % 16};
+  }
+
+  // Of the umbrella of a corner.
+  Around lookAround(Index first) const {
+    Around around;
+    bool closed = false;
+    const auto look = [&](Index end) {
+      around.left += isAsked(end);
+      if (ends_[end] == kParted) around.parted = 2;
+    };
+    Index corner = first;
+    do {
+      look(corner);
+      corner = ways_.across(corner);
+      closed = corner == first;
+    } while (!closed && corner != kNone);
+    if (closed && around.parted == 0) around.required = 2;
+    if (closed) return around;
+    for (corner = ways_.back(first); corner != kNone; corner = ways_.back(corner)) look(corner);
+    return around;
+  }
+
+  /// kUnknown, kQuiet or kTouched.
+  uint32_t stateAt(Index corner) const { return std::min(slots_[ways_.umbrella(corner)], kTouched); }
+
+  void codeEnd(Index corner, Index far) {
+    const Index slot = slots_[ways_.umbrella(corner)];
+    if (slot < kTouched || !isAsked(corner)) return;
+    Around& here = around_[slot - kTouched];
+    const bool parted = here.left == here.required ||
+                        flags_.code(port_, contextsOf(corner, far, here), known(far), Port::kWriting && truth_[corner]);
+    here.parted = static_cast<uint8_t>(std::min(here.parted + parted, 2));
+    here.required = here.required > parted ? static_cast<uint8_t>(here.required - parted) : 0;
     --here.left;
-    known_[corner] = static_cast<uint8_t>(1 + flag);
-    history_ = (history_ * 2 + flag) % 16;
-    return flag;
+    ends_[corner] = parted ? kParted : kJoined;
+    history_ = (history_ * 2 + parted) % kHistories;
   }
 
-  /// Far from all seams one plain context is enough, and fast.
-  values::Chance& quiet(const Around& here, const Around& there, int other) {
-    return quiet_[((other * 2 + here.open) * 2 + (here.left <= 2)) * 2 + (there.left <= 2)];
-  }
-
-  std::array<uint32_t, 6> contextsOf(Index corner, Index far, const Around& here, const Around& there) const {
-    const Index after = links_.across[corner], before = links_.back[corner];
-    const uint32_t sides = known(after) * 3 + known(before);
-    const uint32_t next_but_one = known(across(after)) * 3 + known(back(before));
-    const uint32_t far_sides = known(links_.across[far]) * 3 + known(links_.back[far]);
-    const uint32_t straight = opposite(corner, here) * 3 + opposite(far, there);
-    const uint32_t seen = known_[far] * 9 + here.parted * 3 + there.parted;
-    const uint32_t corners = std::max<uint32_t>(here.corners, 3) - 3;
+  std::array<uint32_t, 6> contextsOf(Index corner, Index far, const Around& here) const {
+    const Index after = ways_.across(corner), before = ways_.back(corner);
+    const Index after2 = ways_.across(after), before2 = ways_.back(before);
+    const Index far_after = ways_.across(far), far_before = ways_.back(far);
+    const Index far_after2 = ways_.across(far_after), far_before2 = ways_.back(far_before);
+    const Index slot = slots_[ways_.umbrella(far)];
+    const Around there = slot >= kTouched ? around_[slot - kTouched] : Around{0, 3};
+    const uint32_t sides = known(after) * 3 + known(before), far_sides = known(far_after) * 3 + known(far_before);
+    const uint32_t straight = opposite(after2, before2) * 3 + opposite(far_after2, far_before2);
+    const uint32_t seen = (known(far) * 3 + here.parted) * 4 + there.parted;
     const uint32_t room = (std::min(here.left, 8u) - 1) * 8 + std::min(there.left, 7u);
-    return {((sides * 9 + next_but_one) * 5 + corners) * 27 + seen,
-            straight * 27 + seen,
-            room * 27 + seen,
-            (far_sides * 9 + sides) * 9 + known_[far] * 3 + here.parted,
-            ((facing(corner) * 3 + facing(far)) * 16 + history_) * 27 + seen,
-            (beside(corner) * 9 + beside(far)) * 27 + seen};
+    return {(sides * 9 + known(after2) * 3 + known(before2)) * kSeen + seen,
+            straight * kSeen + seen,
+            room * kSeen + seen,
+            (far_sides * 9 + sides) * kSeen + seen,
+            ((facing(corner) * 3 + facing(far)) * kHistories + history_) * kSeen + seen,
+            (beside(corner) * 9 + beside(far)) * kSeen + seen};
   }
 
-  /// 0: not known (or no end); 1 or 2: the flag was 0 or 1.
-  uint32_t known(Index end) const { return end == kNone ? 0 : known_[end]; }
-  Index across(Index end) const { return end == kNone ? kNone : links_.across[end]; }
-  Index back(Index end) const { return end == kNone ? kNone : links_.back[end]; }
+  /// 0: not known (or no end).
+  uint32_t known(Index end) const { return end == kNone ? 0 : ends_[end] & 3; }
 
-  /// Of an edge, by one of its ends: 2 when a flag of it is 1, 1 when none is that is known, 0 when none is known.
+  /// Of an edge, by one of its ends: 2 when an end of it is parted, 1 when none is that is known, 0 when none is known.
   uint32_t edge(Index end) const {
-    const Index twin = mesh_.twins[end];
-    return twin == kNone ? 0 : std::max(known_[end], known_[twin]);
+    const Index twin = ways_.twin(end);
+    return twin == kNone ? 0 : std::max(known(end), known(twin));
   }
 
   /// The edges before and after this one in its face.
-  uint32_t beside(Index end) const { return edge(links_.next[end]) * 3 + edge(links_.prev[end]); }
+  uint32_t beside(Index end) const { return edge(ways_.next(end)) * 3 + edge(ways_.prev(end)); }
 
   /// The edge at the other side of a quad.
-  uint32_t facing(Index end) const {
-    const Index far_corner = links_.next[links_.next[end]];
-    return links_.next[links_.next[far_corner]] == end ? edge(far_corner) : 0;
-  }
+  uint32_t facing(Index end) const { return ways_.degree(end) == 4 ? edge(ways_.next(ways_.next(end))) : 0; }
 
   /// The end that continues an edge straight through a vertex with four corners.
-  uint32_t opposite(Index end, const Around& here) const {
-    if (here.corners != 4) return 0;
-    const Index forwards = across(across(end));
-    return known(forwards != kNone ? forwards : back(back(end)));
-  }
+  uint32_t opposite(Index after2, Index before2) const { return after2 == before2 ? known(after2) : 0; }
+
+  static constexpr uint32_t kRows = 256, kHistories = 16, kSeen = 36;
 
   Port& port_;
-  const Connectivity& mesh_;
-  const UmbrellaLinks& links_;
-  std::span<const uint8_t> candidates_, given_;
+  const UmbrellaWays& ways_;
+  std::vector<uint8_t>& ends_;
+  const std::span<const uint8_t> truth_;
+  std::vector<uint8_t> touched_;  // a writer's truth about umbrellas
+  std::vector<Index> slots_;      // per umbrella
   std::vector<Around> around_;
-  std::vector<uint8_t> known_;
-  uint32_t history_ = 0;  ///< the last four flags
-  std::array<values::Chance, 16> quiet_;
-  MixedFlag<6> mixed_{{81 * 5 * 27, 9 * 27, 64 * 27, 81 * 9, 9 * 16 * 27, 81 * 27}, 3};
+  uint32_t history_ = 0;  ///< the last flags
+  std::array<values::Chance, 9> quiet_;
+  MixedFlag<3> touches_{{27 * 16, kRows * 9, 9 * 32}, 1};
+  MixedFlag<6> flags_{{81 * kSeen, 9 * kSeen, 64 * kSeen, 81 * kSeen, 9 * kHistories* kSeen, 81 * kSeen}, 3};
 };
 
 }  // namespace tutte

@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "codec/end_flags.h"
 #include "codec/mesh.h"
 #include "codec/model.h"
-#include "codec/umbrella_links.h"
+#include "codec/umbrella_ways.h"
 
 namespace tutte {
 
@@ -19,28 +20,30 @@ struct Runs {
   std::vector<Index> of_corner, firsts;
   std::vector<Index> before, after;  ///< per run, its neighbours around the umbrella; kNone at a boundary
 
-  Runs(const UmbrellaLinks& links, std::span<const uint8_t> parted) : of_corner(parted.size(), kNone) {
-    for (Index corner = 0; corner < parted.size(); ++corner) {
-      if (of_corner[corner] == kNone) add(links, parted, corner);
+  /// `ends` are EndStates. Umbrellas for which wanted(umbrella) is false are left out: of_corner is kNone.
+  template <class Wanted>
+  Runs(const UmbrellaWays& ways, std::span<const uint8_t> ends, Wanted wanted) : of_corner(ends.size(), kNone) {
+    for (Index corner = 0; corner < ends.size(); ++corner) {
+      if (wanted(ways.umbrella(corner)) && of_corner[corner] == kNone) add(ways, ends, corner);
     }
     before.assign(firsts.size(), kNone);
     after.assign(firsts.size(), kNone);
-    for (Index corner = 0; corner < parted.size(); ++corner) {
-      if (!parted[corner]) continue;
-      const Index here = of_corner[corner], there = of_corner[links.across[corner]];
+    for (Index corner = 0; corner < ends.size(); ++corner) {
+      if (ends[corner] != kParted) continue;
+      const Index here = of_corner[corner], there = of_corner[ways.across(corner)];
       after[here] = there;
       before[there] = here;
     }
   }
 
  private:
-  void add(const UmbrellaLinks& links, std::span<const uint8_t> parted, Index first) {
+  void add(const UmbrellaWays& ways, std::span<const uint8_t> ends, Index first) {
     const Index run = static_cast<Index>(firsts.size());
     firsts.push_back(first);
-    for (Index c = first; c != kNone && of_corner[c] == kNone; c = parted[c] ? kNone : links.across[c]) {
+    for (Index c = first; c != kNone && of_corner[c] == kNone; c = ends[c] == kParted ? kNone : ways.across(c)) {
       of_corner[c] = run;
     }
-    for (Index c = links.back[first]; c != kNone && !parted[c] && of_corner[c] == kNone; c = links.back[c]) {
+    for (Index c = ways.back(first); c != kNone && ends[c] != kParted && of_corner[c] == kNone; c = ways.back(c)) {
       of_corner[c] = run;
     }
   }

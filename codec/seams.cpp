@@ -3,21 +3,15 @@
 #include <algorithm>
 #include <cstring>
 #include <ranges>
+#include <utility>
 
 #include "codec/end_flags.h"
 #include "codec/range_coder.h"
 #include "codec/run_parts.h"
-#include "codec/umbrella_links.h"
+#include "codec/umbrella_ways.h"
 
 namespace tutte {
 namespace {
-
-/// Marks the ends that edges with two faces have.
-std::vector<uint8_t> interiorEnds(const Connectivity& mesh) {
-  std::vector<uint8_t> ends(mesh.twins.size());
-  for (size_t corner = 0; corner < ends.size(); ++corner) ends[corner] = mesh.twins[corner] != kNone;
-  return ends;
-}
 
 /// How the ends of one attribute are told.
 enum class Parting : uint8_t { kNever, kAlways, kMixed };
@@ -28,37 +22,46 @@ Parting codeParting(Port& port, Parting parting) {
   return port.code(32768, parting == Parting::kMixed) ? Parting::kMixed : Parting::kAlways;
 }
 
-/// From flags at ends to flags at edges.
+/// From parted ends to flags at edges.
 std::vector<uint8_t> edgesOf(const Connectivity& mesh, std::span<const uint8_t> ends) {
   std::vector<uint8_t> edges(ends.size());
   for (size_t corner = 0; corner < ends.size(); ++corner) {
-    const Index twin = mesh.twins[corner];
-    if (twin != kNone) edges[corner] = ends[corner] | ends[twin];
+    if (ends[corner] == kParted) edges[corner] = edges[mesh.twins[corner]] = 1;
   }
   return edges;
 }
 
-Parting partingOf(std::span<const uint8_t> ends, std::span<const uint8_t> parted) {
-  if (std::ranges::find(ends, 1) == ends.end()) return Parting::kNever;
-  return std::ranges::equal(ends, parted) ? Parting::kAlways : Parting::kMixed;
+Parting partingOf(std::span<const uint8_t> truth, std::span<const uint8_t> ends) {
+  if (std::ranges::find(truth, 1) == truth.end()) return Parting::kNever;
+  const auto same = [](uint8_t differs, uint8_t end) { return differs == (end == kParted); };
+  return std::ranges::equal(truth, ends, same) ? Parting::kAlways : Parting::kMixed;
 }
 
-std::vector<uint8_t> differingEnds(const UmbrellaLinks& links, std::span<const Index> wedges,
-                                   std::span<const uint8_t> parted, const ValueView& values) {
-  std::vector<uint8_t> ends(parted.size());
-  for (size_t c = 0; c < ends.size(); ++c) {
-    if (!parted[c]) continue;
+/// What is asked about an attribute.
+std::vector<uint8_t> askParted(std::span<const uint8_t> ends) {
+  std::vector<uint8_t> asked(ends.size());
+  for (size_t c = 0; c < ends.size(); ++c) asked[c] = ends[c] == kParted ? kAsked : kNoEnd;
+  return asked;
+}
+
+std::vector<uint8_t> differingEnds(const UmbrellaWays& ways, std::span<const Index> wedges,
+                                   std::span<const uint8_t> ends, const ValueView& values) {
+  std::vector<uint8_t> differ(ends.size());
+  for (Index c = 0; c < ends.size(); ++c) {
+    if (ends[c] != kParted) continue;
     const uint8_t* here = values.data.data() + size_t{wedges[c]} * values.stride;
-    const uint8_t* across = values.data.data() + size_t{wedges[links.across[c]]} * values.stride;
-    ends[c] = std::memcmp(here, across, values.stride) != 0;
+    const uint8_t* across = values.data.data() + size_t{wedges[ways.across(c)]} * values.stride;
+    differ[c] = std::memcmp(here, across, values.stride) != 0;
   }
-  return ends;
+  return differ;
 }
 
-std::vector<uint8_t> partedEnds(const UmbrellaLinks& links, std::span<const Index> parts) {
+/// 1 at ends whose sides have different parts.
+std::vector<uint8_t> partedEnds(const UmbrellaWays& ways, std::span<const Index> parts) {
   std::vector<uint8_t> parted(parts.size());
-  for (size_t c = 0; c < parts.size(); ++c) {
-    parted[c] = links.across[c] != kNone && parts[c] != parts[links.across[c]];
+  for (Index c = 0; c < parts.size(); ++c) {
+    const Index across = ways.across(c);
+    parted[c] = across != kNone && parts[c] != parts[across];
   }
   return parted;
 }
@@ -66,61 +69,81 @@ std::vector<uint8_t> partedEnds(const UmbrellaLinks& links, std::span<const Inde
 /// A level of the structure: per coded corner a number below `count`. The connectivity's vertices are one; each further
 /// level parts the one before it.
 struct Level {
-  std::vector<Index> of_corner;
+  std::vector<Index> own;              ///< empty: of somebody else
+  std::span<const Index> of_corner{};  ///< `own`, or the other's
   Index count = 0;
-  std::vector<uint8_t> parted = {};  ///< ends where it differs; empty: none
+  std::vector<uint8_t> ends{};  ///< EndStates; empty: it differs nowhere
+
+  Level() = default;
+  Level(std::vector<Index> numbers, Index number_count, std::vector<uint8_t> states)
+      : own(std::move(numbers)), of_corner(own), count(number_count), ends(std::move(states)) {}
 };
 
-/// The ends at which a further level may differ and `level` does not.
-std::vector<uint8_t> joinedEnds(const Connectivity& mesh, const Level& level) {
-  std::vector<uint8_t> ends = interiorEnds(mesh);
-  for (size_t end = 0; end < level.parted.size(); ++end) ends[end] &= static_cast<uint8_t>(1 - level.parted[end]);
+Level firstLevel(const Connectivity& mesh) {
+  Level level;
+  if (!mesh.vertices.empty()) level.own = verticesOf(mesh);
+  level.of_corner = mesh.vertices.empty() ? mesh.umbrellas : level.own;
+  level.count = mesh.vertex_count;
+  return level;
+}
+
+/// What is asked about the next level: where this one does not differ.
+std::vector<uint8_t> askJoined(const Connectivity& mesh, const Level& whole) {
+  std::vector<uint8_t> ends(mesh.twins.size(), kAsked);
+  for (size_t c = 0; c < whole.ends.size(); ++c) ends[c] = whole.ends[c] == kParted ? kParted : kAsked;
   return ends;
 }
 
-Level firstLevel(const Connectivity& mesh) { return {verticesOf(mesh), mesh.vertex_count}; }
+/// Codes the parts of `whole` behind the flags that part it, and returns their numbers per run.
+template <class Port>
+class LevelCoder {
+ public:
+  LevelCoder(Port& port, const UmbrellaWays& ways, const Level& whole)
+      : port_(port), ways_(ways), whole_(whole), ends_(askJoined(ways.mesh(), whole)) {}
 
-/// Codes the parts of `whole`, and returns at which ends they differ.
-std::vector<uint8_t> encodeLevel(RangeWriter& port, const Connectivity& mesh, const UmbrellaLinks& links,
-                                 const Level& whole, std::span<const Index> parts) {
-  std::vector<uint8_t> parted = partedEnds(links, parts);
-  EndFlags<RangeWriter>(port, mesh, links, joinedEnds(mesh, whole), whole.parted).code(parted);
-  const Runs runs(links, parted);
-  RunParts<RangeWriter> coder(port, mesh, runs, whole.of_corner, whole.count);
-  std::vector<Index> base(whole.count, kNone);
-  for (const Index first : runs.firsts) {
-    Index& start = base[whole.of_corner[first]];
-    if (start == kNone) start = parts[first];
-    coder.code(parts[first] - start);
+  /// `parts`: per corner; a decoder passes nothing.
+  Level code(std::span<const Index> parts = {}) {
+    const std::vector<uint8_t> truth = partedEnds(ways_, parts);
+    EndFlags<Port> flags(port_, ways_, ends_, truth);
+    flags.code();
+    // Umbrellas that are wholes of their own, and not parted, are their own parts: nothing is coded.
+    const bool all = whole_.of_corner.data() != ways_.mesh().umbrellas.data();
+    Runs runs(ways_, ends_, [&](Index umbrella) { return all || flags.isTouched(umbrella); });
+    RunParts<Port> coder(port_, ways_.mesh(), runs, whole_.of_corner, whole_.count);
+    std::vector<Index> base(Port::kWriting ? whole_.count : 0, kNone);
+    for (const Index first : runs.firsts) {
+      Index local = 0;
+      if constexpr (Port::kWriting) {
+        Index& start = base[whole_.of_corner[first]];
+        if (start == kNone) start = parts[first];
+        local = parts[first] - start;
+      }
+      coder.code(local);
+    }
+    return numbered(std::move(runs), coder);
   }
-  return parted;
-}
 
-/// Turns numbers within wholes into parts. A whole without corners has one part.
-Level numberRuns(const Level& whole, std::span<const Index> run_of, std::span<const Index> local,
-                 std::span<const Index> used) {
-  Level parts{std::vector<Index>(run_of.size()), 0};
-  std::vector<Index> base(whole.count);
-  for (Index w = 0; w < whole.count; ++w) {
-    base[w] = parts.count;
-    parts.count += std::max(used[w], 1u);
+ private:
+  // Turns numbers within wholes into parts. A whole without runs has one part.
+  Level numbered(Runs&& runs, const RunParts<Port>& coder) {
+    std::vector<Index> base(whole_.count);
+    Index count = 0;
+    for (Index w = 0; w < whole_.count; ++w) {
+      base[w] = count;
+      count += std::max(coder.used()[w], 1u);
+    }
+    for (size_t c = 0; c < runs.of_corner.size(); ++c) {
+      Index& number = runs.of_corner[c];
+      number = base[whole_.of_corner[c]] + (number == kNone ? 0 : coder.parts()[number]);
+    }
+    return {std::move(runs.of_corner), count, std::move(ends_)};
   }
-  for (size_t c = 0; c < run_of.size(); ++c) parts.of_corner[c] = base[whole.of_corner[c]] + local[run_of[c]];
-  return parts;
-}
 
-Result<Level> decodeLevel(RangeReader& port, const Connectivity& mesh, const UmbrellaLinks& links, const Level& whole) {
-  std::vector<uint8_t> parted(mesh.umbrellas.size());
-  EndFlags<RangeReader>(port, mesh, links, joinedEnds(mesh, whole), whole.parted).code(parted);
-  const Runs runs(links, parted);
-  RunParts<RangeReader> coder(port, mesh, runs, whole.of_corner, whole.count);
-  for (size_t run = 0; run < runs.firsts.size(); ++run) coder.code(0);
-  Level parts = numberRuns(whole, runs.of_corner, coder.parts(), coder.used());
-  // A damaged stream may give the same part to two runs that it has parted, or part a run from itself.
-  if (partedEnds(links, parts.of_corner) != parted) return Error::kMalformed;
-  parts.parted = std::move(parted);
-  return parts;
-}
+  Port& port_;
+  const UmbrellaWays& ways_;
+  const Level& whole_;
+  std::vector<uint8_t> ends_;
+};
 
 /// The levels below the connectivity's vertices: those of a welded mesh, then wedges.
 struct Levels {
@@ -133,32 +156,26 @@ bool codeWedgesDiffer(Port& port, bool welded, bool differ) {
   return !welded || port.code(32768, differ);
 }
 
-Result<Levels> decodeLevels(RangeReader& port, const Connectivity& mesh, const UmbrellaLinks& links, bool welded) {
-  Levels levels{firstLevel(mesh), {}};
-  if (welded) {
-    Result<Level> vertices = decodeLevel(port, mesh, links, levels.vertices);
-    if (!vertices) return vertices.error();
-    levels.vertices = *std::move(vertices);
+Levels decodeLevels(RangeReader& port, const UmbrellaWays& ways, bool welded) {
+  Levels levels{firstLevel(ways.mesh()), {}};
+  if (welded) levels.vertices = LevelCoder(port, ways, levels.vertices).code();
+  if (codeWedgesDiffer(port, welded, false)) {
+    levels.wedges = LevelCoder(port, ways, levels.vertices).code();
+  } else {
+    levels.wedges = {levels.vertices.own, levels.vertices.count, levels.vertices.ends};
   }
-  if (!codeWedgesDiffer(port, welded, false)) {
-    levels.wedges = levels.vertices;
-    return levels;
-  }
-  Result<Level> wedges = decodeLevel(port, mesh, links, levels.vertices);
-  if (!wedges) return wedges.error();
-  levels.wedges = *std::move(wedges);
   return levels;
 }
 
-void decodeAttributeSeams(RangeReader& port, const Connectivity& mesh, const UmbrellaLinks& links,
-                          std::span<const uint8_t> parted, std::vector<std::vector<uint8_t>>& attribute_seams) {
+void decodeAttributeSeams(RangeReader& port, const UmbrellaWays& ways, std::span<const uint8_t> parted,
+                          std::vector<std::vector<uint8_t>>& attribute_seams) {
   for (size_t slot = 1; slot < attribute_seams.size() && !port.overrun(); ++slot) {
     const Parting parting = codeParting(port, Parting::kNever);
-    if (parting == Parting::kAlways) attribute_seams[slot] = edgesOf(mesh, parted);
+    if (parting == Parting::kAlways) attribute_seams[slot] = edgesOf(ways.mesh(), parted);
     if (parting != Parting::kMixed) continue;
-    std::vector<uint8_t> ends(parted.size());
-    EndFlags<RangeReader>(port, mesh, links, parted).code(ends);
-    attribute_seams[slot] = edgesOf(mesh, ends);
+    std::vector<uint8_t> ends = askParted(parted);
+    EndFlags<RangeReader>(port, ways, ends).code();
+    attribute_seams[slot] = edgesOf(ways.mesh(), ends);
   }
 }
 
@@ -180,42 +197,37 @@ Seams withoutSeams(const Connectivity& mesh, Index attribute_count) {
 
 std::vector<uint8_t> encodeSeams(const Connectivity& mesh, std::span<const Index> vertices,
                                  std::span<const Index> wedges, std::span<const ValueView> attributes) {
-  const UmbrellaLinks links(mesh);
+  const UmbrellaWays ways(mesh);
   const bool welded = !vertices.empty();
   RangeWriter port;
   Level level = firstLevel(mesh);
-  if (welded) {
-    std::vector<uint8_t> parted = encodeLevel(port, mesh, links, level, vertices);
-    level = {{vertices.begin(), vertices.end()}, std::ranges::max(vertices) + 1, std::move(parted)};
-  }
-  std::vector<uint8_t> parted = level.parted;
+  if (welded) level = LevelCoder(port, ways, level).code(vertices);
   if (codeWedgesDiffer(port, welded, !std::ranges::equal(vertices, wedges))) {
-    parted = encodeLevel(port, mesh, links, level, wedges);
+    level = LevelCoder(port, ways, level).code(wedges);
   }
   for (size_t slot = 1; slot < attributes.size(); ++slot) {
-    std::vector<uint8_t> ends = differingEnds(links, wedges, parted, attributes[slot]);
-    if (codeParting(port, partingOf(ends, parted)) == Parting::kMixed) {
-      EndFlags<RangeWriter>(port, mesh, links, parted).code(ends);
-    }
+    const std::vector<uint8_t> truth = differingEnds(ways, wedges, level.ends, attributes[slot]);
+    if (codeParting(port, partingOf(truth, level.ends)) != Parting::kMixed) continue;
+    std::vector<uint8_t> ends = askParted(level.ends);
+    EndFlags<RangeWriter>(port, ways, ends, truth).code();
   }
   return std::move(port).finish();
 }
 
 Result<Seams> decodeSeams(const Connectivity& mesh, bool welded, std::span<const uint8_t> bytes,
                           Index attribute_count) {
-  const UmbrellaLinks links(mesh);
+  const UmbrellaWays ways(mesh);
   RangeReader port(bytes);
-  Result<Levels> levels = decodeLevels(port, mesh, links, welded);
-  if (!levels) return levels.error();
+  Levels levels = decodeLevels(port, ways, welded);
   Seams seams;
   seams.attribute_seams.resize(attribute_count);
-  decodeAttributeSeams(port, mesh, links, levels->wedges.parted, seams.attribute_seams);
+  decodeAttributeSeams(port, ways, levels.wedges.ends, seams.attribute_seams);
   if (port.overrun()) return Error::kTruncated;
   if (port.trailing()) return Error::kTrailingBytes;
-  seams.wedges = std::move(levels->wedges.of_corner);
-  seams.wedge_count = levels->wedges.count;
-  if (welded) seams.vertices = std::move(levels->vertices.of_corner);
-  seams.vertex_count = levels->vertices.count;
+  seams.wedges = std::move(levels.wedges.own);
+  seams.wedge_count = levels.wedges.count;
+  if (welded) seams.vertices = std::move(levels.vertices.own);
+  seams.vertex_count = levels.vertices.count;
   return seams;
 }
 

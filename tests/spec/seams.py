@@ -91,59 +91,83 @@ class Ends:
 
 class FlagPass:
     def __init__(self, ends, candidates, given=frozenset()):
-        self.ends, self.candidates = ends, candidates
-        self.quiet, self.mixed, self.history = [Chance(4096) for _ in range(16)], MixedFlag(6, 3), 0
+        self.ends, self.candidates, self.history = ends, candidates, 0
+        self.quiet, self.touches, self.flags = [Chance(4096) for _ in range(9)], MixedFlag(3, 1), MixedFlag(6, 3)
         self.known = {end: 2 for end in given}
-        self.left, self.parted, self.corners = {}, {}, {}
+        self.left, self.parted, self.required, self.states = {}, {}, {}, {}
         for c, u in enumerate(ends.umbrellas):
             self.left[u] = self.left.get(u, 0) + (c in candidates)
-            self.corners[u] = min(self.corners.get(u, 0) + 1, 7)
-            self.parted[u] = min(self.parted.get(u, 0) + (c in given), 2)
+            self.parted[u] = max(self.parted.get(u, 0), 2 * (c in given))
+        for u, parted in self.parted.items():
+            self.required[u] = 1 if u in ends.open or parted else 2
 
     def run(self, stream):
         """The ends whose flag is 1."""
+        self.read_touched(stream)
         for c, t in enumerate(self.ends.twins):
-            if t is None or t < c:
-                continue
-            if c in self.candidates:
-                self.read(stream, c, t)
-            if t in self.candidates:
-                self.read(stream, t, c)
+            for end, far in ((c, t), (t, c)):
+                if not self.wanted(c):
+                    break
+                if self.wanted(end) and self.known.get(end, 0) == 0:
+                    self.read(stream, end, far)
         return {end for end, known in self.known.items() if known == 2}
+
+    def wanted(self, end):
+        return end in self.candidates and self.state(end) == 2
+
+    def state(self, corner):
+        return self.states.get(self.ends.umbrellas[corner], 0)
+
+    def read_touched(self, stream):
+        row, following, preceding, twins = 0, self.ends.following, self.ends.preceding, self.ends.twins
+        for c, u in enumerate(self.ends.umbrellas):
+            if c in self.candidates and u not in self.states:
+                p, n, o = self.state(preceding[c]), self.state(following[c]), self.state(following[following[c]])
+                left, r = twins[preceding[c]], self.state(preceding[twins[c]])
+                l = 3 if left is None else self.state(following[following[left]])
+                if row == 0 and p != 2 and n != 2:
+                    touched = self.quiet[p * 3 + n].read(stream)
+                else:
+                    touched = self.touches.read(stream, [(((p * 3 + n) * 3 + o) * 4 + l) * 4 + r, (row * 3 + n) * 3 + o,
+                                                         ((p * 3 + n) * 2 + (l == 3)) * 16 + (row & 15)], 0)
+                self.states[u] = 1 + touched
+            row = (2 * row + (self.state(c) == 2)) & 255
 
     def read(self, stream, e, far):
         u, v = self.ends.umbrellas[e], self.ends.umbrellas[far]
-        if self.left[u] == 1 and u not in self.ends.open and self.parted[u] < 2:
-            flag = self.parted[u]
-        elif self.parted[u] == 0 and self.parted[v] == 0:
-            context = ((self.state(far) * 2 + (u in self.ends.open)) * 2 + (self.left[u] <= 2)) * 2 + (self.left[v] <= 2)
-            flag = self.quiet[context].read(stream)
+        if self.left[u] == self.required[u]:
+            flag = 1
         else:
-            flag = self.mixed.read(stream, self.contexts(e, far, u, v), self.state(far))
+            flag = int(self.flags.read(stream, self.contexts(e, far, u, v), self.flag(far)))
         self.parted[u] = min(2, self.parted[u] + flag)
+        self.required[u] = max(0, self.required[u] - flag)
         self.left[u] -= 1
         self.known[e] = 1 + flag
         self.history = (2 * self.history + flag) & 15
 
-    def state(self, end):
+    def flag(self, end):
         return self.known.get(end, 0)
 
     def contexts(self, e, far, u, v):
-        across, back, known = self.ends.across.get, self.ends.back.get, self.state
+        across, back, known = self.ends.across.get, self.ends.back.get, self.flag
         sides = known(across(e)) * 3 + known(back(e))
-        wide = known(across(across(e))) * 3 + known(back(back(e)))
         far_sides = known(across(far)) * 3 + known(back(far))
-        straight = self.opposite(e, u) * 3 + self.opposite(far, v)
-        seen = known(far) * 9 + self.parted[u] * 3 + self.parted[v]
-        room = (min(self.left[u], 8) - 1) * 8 + min(self.left[v], 7)
-        return [((sides * 9 + wide) * 5 + max(self.corners[u], 3) - 3) * 27 + seen, straight * 27 + seen, room * 27 + seen,
-                (far_sides * 9 + sides) * 9 + known(far) * 3 + self.parted[u],
-                ((self.facing(e) * 3 + self.facing(far)) * 16 + self.history) * 27 + seen,
-                (self.beside(e) * 9 + self.beside(far)) * 27 + seen]
+        parted, left = (self.parted[v], self.left[v]) if self.states.get(v) == 2 else (3, 0)
+        seen = (known(far) * 3 + self.parted[u]) * 4 + parted
+        return [(sides * 9 + known(across(across(e))) * 3 + known(back(back(e)))) * 36 + seen,
+                (self.straight(e) * 3 + self.straight(far)) * 36 + seen,
+                ((min(self.left[u], 8) - 1) * 8 + min(left, 7)) * 36 + seen,
+                (far_sides * 9 + sides) * 36 + seen,
+                ((self.facing(e) * 3 + self.facing(far)) * 16 + self.history) * 36 + seen,
+                (self.beside(e) * 9 + self.beside(far)) * 36 + seen]
+
+    def straight(self, x):
+        forwards = self.ends.across.get(self.ends.across.get(x))
+        return self.flag(forwards) if forwards == self.ends.back.get(self.ends.back.get(x)) else 0
 
     def edge(self, x):
         twin = self.ends.twins[x]
-        return 0 if twin is None else max(self.state(x), self.state(twin))
+        return 0 if twin is None else max(self.flag(x), self.flag(twin))
 
     def facing(self, x):
         following = self.ends.following
@@ -151,12 +175,6 @@ class FlagPass:
 
     def beside(self, x):
         return self.edge(self.ends.following[x]) * 3 + self.edge(self.ends.preceding[x])
-
-    def opposite(self, end, umbrella):
-        if self.corners[umbrella] != 4:
-            return 0
-        forwards = self.ends.across.get(self.ends.across.get(end))
-        return self.state(forwards if forwards is not None else self.ends.back.get(self.ends.back.get(end)))
 
 
 def runs(ends, parted):
@@ -218,7 +236,6 @@ def part(stream, ends, wholes, count):
         base.append(total)
         total += max(parts, 1)
     parts = [base[wholes[c]] + local[first[c]] for c in range(len(wholes))]
-    require(parted == {c for c in ends.all if parts[c] != parts[ends.across[c]]}, 'parts that contradict their ends')
     return parts, total, parted
 
 
