@@ -1,7 +1,7 @@
 // Sizes and speeds of decoders in WebAssembly: ours, draco3d's and meshoptimizer's, on the same meshes in the same run, in
 // Node.js and in Chromium. Fails when what ours decodes is not what the native decoder does.
 //
-//   node bench.mjs TUTTE BUILD_FOLDER [--seconds S] [FILE...]
+//   node bench.mjs TUTTE BUILD_FOLDER [--seconds S] [--profile P] [FILE...]
 import {existsSync, readFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {dirname, join} from 'node:path';
@@ -21,7 +21,11 @@ const {Modules} = await import(join(installed, 'src/modules.js'));
 const {MeshoptDecoder} = await import(join(npm, 'meshoptimizer/meshopt_decoder.mjs'));
 
 const files = process.argv.slice(4);
-const seconds = files[0] === '--seconds' ? Number(files.splice(0, 2)[1]) : 0.5;
+const option = (name) => {
+  const at = files.indexOf(name);
+  return at < 0 ? undefined : files.splice(at, 2)[1];
+};
+const seconds = Number(option('--seconds') ?? 0.5), profile = option('--profile');
 if (files.length === 0) {
   files.push(...['Collada/duck.dae', 'OBJ/spider.obj'].map((name) => join(assimpModels, name)),
     ...['polygon/beast.obj', 'polygon/makehuman_base.obj', 'triangle/igea_134345.ply'].map((name) => join(corpus, name)));
@@ -51,7 +55,7 @@ console.log('| model | triangles | tutte B | draco 10 B | draco 7 B | meshopt B 
 console.log('|---|---|---|---|---|---|---|---|---|---|---|---|---|');
 let failures = 0;
 for (const file of files.filter((path) => existsSync(path))) {
-  const input = await inputsOf(file);
+  const input = await inputsOf(file, profile);
   const places = {node: await measure(input, decoders, seconds)};
   if (page) places.chromium = await page.evaluate(([text, time]) => globalThis.measure(text, time), [JSON.stringify(input, encode), seconds]);
   for (const [place, {times, hash, expected}] of Object.entries(places)) {

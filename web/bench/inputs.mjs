@@ -27,10 +27,11 @@ function numbersOf({json, bin}, index) {
   return {values, width, count: accessor.count};
 }
 
-/** The model as we compress it, and what our decoder is to give. */
-function tutteInput(source) {
+/** The model as we compress it, in a profile or what the command chooses, and what our decoder is to give. */
+function tutteInput(source, profile) {
   const file = join(scratch, 'bench.glb'), plain = join(scratch, 'bench.plain.glb');
-  execFileSync(tutte, ['encode', source, file, '--attributes', Object.keys(bits).join(',')], {stdio: 'ignore'});
+  const choice = profile ? ['--profile', profile] : [];
+  execFileSync(tutte, ['encode', source, file, '--attributes', Object.keys(bits).join(','), ...choice], {stdio: 'ignore'});
   execFileSync(tutte, ['decode', file, plain], {stdio: 'ignore'});
   const {json, bin} = readGlb(new Uint8Array(readFileSync(file)));
   const views = json.bufferViews.map((_, index) => ({index, view: compressedView(json, index)})).filter(({view}) => view);
@@ -101,9 +102,9 @@ function extremes(values) {
   return [least, most];
 }
 
-/** Everything that the contenders need of one model. */
-export async function inputsOf(source) {
-  const own = tutteInput(source), mesh = meshOf(own), {json, bin} = own.plain;
+/** Everything that the contenders need of one model; our profile is one's choice. */
+export async function inputsOf(source, profile) {
+  const own = tutteInput(source, profile), mesh = meshOf(own), {json, bin} = own.plain;
   return {
     name: basename(source),
     triangles: mesh.indices.length / 3,
