@@ -1,12 +1,10 @@
 #include "codec/arrays.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 
 #include "codec/polygon_table.h"
 #include "codec/start_chain.h"
-#include "codec/triangulation_shape.h"
 
 namespace tutte {
 namespace {
@@ -31,16 +29,6 @@ struct PolygonOrder {
     }
   }
 };
-
-/// Calls `polygon(face)` for the polygons of each group, and notes in `array` where the groups start.
-template <class EachPolygon>
-void forEachGroup(const PolygonOrder& order, DerivedArray& array, EachPolygon&& polygon) {
-  for (size_t g = 0; g + 1 < order.group_starts.size(); ++g) {
-    array.group_starts.push_back(static_cast<Index>(array.values.size()));
-    for (Index i = order.group_starts[g]; i < order.group_starts[g + 1]; ++i) polygon(order.faces[i]);
-  }
-  array.group_starts.push_back(static_cast<Index>(array.values.size()));
-}
 
 /// Per face, where its triangles start in Triangulation::corners.
 std::vector<Index> triangleStarts(const Triangulation& triangulation) {
@@ -74,11 +62,11 @@ class TriangleWriter {
     for (size_t i = 0; i < faces.size(); ++i) apexes_[i] = fanApex(faces[i]);
     const bool ngons = chain_.choose(faces.size(), [&](size_t i) { return startsOf(faces[i], apexes_[i]); });
     for (size_t i = 0; i < faces.size(); ++i) {
-      const Index degree = mesh_.polygons.face_degrees[faces[i]];
-      if (apexes_[i] == kNone)
+      const Starts starts = startsOf(faces[i], apexes_[i]);
+      if (starts.count() == 0)
         list(faces[i], out);
       else
-        fan(faces[i], apexes_[i] + chain_.chosen(i) * stepOf(degree), out);
+        fan(faces[i], starts.corner(chain_.chosen(i)), out);
     }
     return ngons;
   }
@@ -87,55 +75,47 @@ class TriangleWriter {
   /// The first corner that all triangles of the face share; kNone if they are no fan.
   Index fanApex(Index face) {
     if (mesh_.triangulation.counts.empty()) return 0;
-    if (const Index apex = plainFanApex(face); apex != kNone) return apex;
-    const Polygon polygon = polygons_[face];
-    const Index count = mesh_.triangulation.counts[face];
-    shape_.triangles.resize(count);
-    for (Index i = 0; i < 3 * count; ++i) {
-      shape_.triangles[i / 3][i % 3] = polygon.localOf(mesh_.triangulation.corners[starts_[face] + i]);
-    }
-    finder_.classify(polygon);
-    return shape_.kind == Kind::kFan ? shape_.apex : kNone;
-  }
-
-  /// The same for most fans, whose triangles all begin with the apex and go round; kNone for others. All corners of a
-  /// triangle are apexes, and both ends of a quad's diagonal.
-  Index plainFanApex(Index face) const {
     const Index degree = mesh_.polygons.face_degrees[face], first = polygons_.firstCorner(face);
-    if (!mesh_.ring_owners.empty() || degree < 3 || mesh_.triangulation.counts[face] != degree - 2) return kNone;
-    const Index* triangle = &mesh_.triangulation.corners[starts_[face]];
-    const Index apex = triangle[0] - first;
-    if (apex >= degree) return kNone;
-    for (Index i = 1; i + 1 < degree; ++i, triangle += 3) {
-      const bool next = triangle[0] == first + apex && triangle[1] == first + around(apex + i, degree) &&
-                        triangle[2] == first + around(apex + i + 1, degree);
-      if (!next) return kNone;
+    if (degree < 3 || mesh_.triangulation.counts[face] != degree - 2 || polygons_.hasHoles(face)) return kNone;
+    const Index* const triangles = &mesh_.triangulation.corners[starts_[face]];
+    Index found = kNone;
+    for (int i = 0; i < 3; ++i) {
+      const Index apex = triangles[i] - first;
+      if (apex < std::min(degree, found) && isFan(triangles, first, degree, apex)) found = apex;
     }
-    return degree == 3 ? 0 : degree == 4 ? apex & 1 : apex;
+    return found;
   }
 
-  /// From one possible apex of a fan to the next: in a triangle all corners are, in a quad the diagonal's ends.
-  static Index stepOf(Index degree) { return degree == 4 ? 2 : 1; }
-
-  static Index around(Index local, Index degree) { return local < degree ? local : local - degree; }
+  /// Whether triangles, one for each but two of a face's corners, are those of the fan round `apex`: each in any order
+  /// that goes round, once.
+  bool isFan(const Index* triangles, Index first, Index degree, Index apex) {
+    seen_.assign(degree, 0);
+    for (Index i = 1; i + 1 < degree; ++i, triangles += 3) {
+      const int turn = triangles[0] == first + apex ? 0 : triangles[1] == first + apex ? 1 : 2;
+      const Index next = triangles[kTurned[turn]] - first, last = triangles[kTurned[turn + 1]] - first;
+      const Index steps = next - apex + (next < apex ? degree : 0);
+      if (triangles[turn] != first + apex || next >= degree || steps == 0 || steps + 1 >= degree) return false;
+      if (last != (next + 1 < degree ? next + 1 : 0) || seen_[next] != 0) return false;
+      seen_[next] = 1;
+    }
+    return true;
+  }
 
   Starts startsOf(Index face, Index apex) const {
-    Starts starts;
-    if (apex == kNone) return starts;
-    const Index degree = mesh_.polygons.face_degrees[face];
-    const Index* const ring = &wedges_[polygons_.firstCorner(face)];
-    starts.count = degree == 3 ? 3 : degree == 4 ? 2 : 1;
-    for (Index i = 0; i < starts.count; ++i) starts.wedges[i] = ring[around(apex + i * stepOf(degree), degree)];
-    return starts;
+    if (apex == kNone) return {};
+    return {&wedges_[polygons_.firstCorner(face)], mesh_.polygons.face_degrees[face], apex};
   }
 
   void fan(Index face, Index apex, Index*& out) const {
     const Index degree = mesh_.polygons.face_degrees[face];
     const Index* const ring = &wedges_[polygons_.firstCorner(face)];
-    for (Index i = 1; i + 1 < degree; ++i) {
-      *out++ = ring[around(apex, degree)];
-      *out++ = ring[around(apex + i, degree)];
-      *out++ = ring[around(apex + i + 1, degree)];
+    Index at = apex;
+    const auto next = [&] { return at = at + 1 < degree ? at + 1 : 0; };
+    Index before = ring[next()];
+    for (Index i = 2; i < degree; ++i) {
+      *out++ = ring[apex];
+      *out++ = before;
+      *out++ = before = ring[next()];
     }
   }
 
@@ -145,18 +125,74 @@ class TriangleWriter {
     }
   }
 
+  static constexpr int kTurned[] = {1, 2, 0, 1};
+
   const ArraySource& mesh_;
   const PolygonTable polygons_;
   const Index* const wedges_;  ///< per corner
   const std::vector<Index> starts_;
   std::vector<Index> apexes_;  ///< of a group's faces
   StartChain chain_;
-  Shape shape_;
-  ShapeFinder finder_{shape_};
+  std::vector<uint8_t> seen_;  ///< per corner of a face
 };
 
-/// Elements of polygonLoops() that a polygon takes, with the separators behind each of its rings.
-Index loopLength(const Polygon& polygon) { return polygon.corner_count + 1 + static_cast<Index>(polygon.holes.size()); }
+/// What there is of each polygon in an array.
+enum class Listed { kIndexOffsets, kLoops, kLoopOffsets, kDegrees };
+
+/// Appends what there is of one polygon after the other.
+class Lister {
+ public:
+  Lister(const ArraySource& mesh, Listed what, std::vector<Index>& out)
+      : mesh_(mesh), polygons_(mesh.polygons.face_degrees, mesh.ring_owners), what_(what), out_(out) {
+    out.reserve(mesh.polygons.face_degrees.size() + (what == Listed::kLoops ? mesh.polygons.corners.size() : 0));
+  }
+
+  void beginGroup() {
+    offset_ = 0;
+    first_ = true;
+  }
+
+  void polygon(Index face) {
+    const Polygon polygon = polygons_[face];
+    if (what_ == Listed::kIndexOffsets || what_ == Listed::kLoopOffsets) {
+      out_.push_back(offset_);
+      // A separator follows each ring.
+      offset_ += what_ == Listed::kIndexOffsets ? 3 * mesh_.triangleCount(face)
+                                                : polygon.corner_count + 1 + static_cast<Index>(polygon.holes.size());
+      return;
+    }
+    ring(polygon.exterior);
+    for (const Ring& hole : polygon.holes) ring(hole);
+  }
+
+ private:
+  void ring(const Ring& ring) {
+    if (what_ == Listed::kDegrees) return out_.push_back(ring.degree);
+    if (!first_) out_.push_back(kNone);
+    first_ = false;
+    for (Index i = 0; i < ring.degree; ++i) out_.push_back(mesh_.wedgeOf(ring.first + i));
+  }
+
+  const ArraySource& mesh_;
+  const PolygonTable polygons_;
+  const Listed what_;
+  std::vector<Index>& out_;
+  Index offset_ = 0;    // of the group's next polygon
+  bool first_ = false;  // ring of the group
+};
+
+DerivedArray listed(const ArraySource& mesh, Listed what) {
+  const PolygonOrder order(mesh);
+  DerivedArray array;
+  Lister lister(mesh, what, array.values);
+  for (size_t g = 0; g + 1 < order.group_starts.size(); ++g) {
+    array.group_starts.push_back(static_cast<Index>(array.values.size()));
+    lister.beginGroup();
+    for (Index i = order.group_starts[g]; i < order.group_starts[g + 1]; ++i) lister.polygon(order.faces[i]);
+  }
+  array.group_starts.push_back(static_cast<Index>(array.values.size()));
+  return array;
+}
 
 }  // namespace
 
@@ -177,63 +213,10 @@ TriangleArray triangleIndices(const ArraySource& mesh) {
   return array;
 }
 
-DerivedArray polygonIndexOffsets(const ArraySource& mesh) {
-  const PolygonOrder order(mesh);
-  DerivedArray array;
-  Index offset = 0;
-  forEachGroup(order, array, [&](Index face) {
-    if (array.values.size() == array.group_starts.back()) offset = 0;
-    array.values.push_back(offset);
-    offset += 3 * mesh.triangleCount(face);
-  });
-  return array;
-}
-
-DerivedArray polygonLoops(const ArraySource& mesh) {
-  const PolygonOrder order(mesh);
-  const PolygonTable polygons(mesh.polygons.face_degrees, mesh.ring_owners);
-  DerivedArray array;
-  array.values.reserve(mesh.polygons.corners.size() + mesh.polygons.face_degrees.size());
-  bool first_of_group = true;
-  const auto append = [&](const Ring& ring) {
-    if (!first_of_group) array.values.push_back(kNone);
-    first_of_group = false;
-    for (Index i = 0; i < ring.degree; ++i) array.values.push_back(mesh.wedgeOf(ring.first + i));
-  };
-  size_t group = 0;
-  forEachGroup(order, array, [&](Index face) {
-    if (group != array.group_starts.size()) first_of_group = true;
-    group = array.group_starts.size();
-    append(polygons[face].exterior);
-    for (const Ring& hole : polygons[face].holes) append(hole);
-  });
-  return array;
-}
-
-DerivedArray polygonLoopOffsets(const ArraySource& mesh) {
-  const PolygonOrder order(mesh);
-  const PolygonTable polygons(mesh.polygons.face_degrees, mesh.ring_owners);
-  DerivedArray array;
-  Index offset = 0;
-  forEachGroup(order, array, [&](Index face) {
-    if (array.values.size() == array.group_starts.back()) offset = 0;
-    array.values.push_back(offset);
-    offset += loopLength(polygons[face]);
-  });
-  return array;
-}
-
-DerivedArray ringDegrees(const ArraySource& mesh) {
-  const PolygonOrder order(mesh);
-  const PolygonTable polygons(mesh.polygons.face_degrees, mesh.ring_owners);
-  DerivedArray array;
-  forEachGroup(order, array, [&](Index face) {
-    const Polygon polygon = polygons[face];
-    array.values.push_back(polygon.exterior.degree);
-    for (const Ring& hole : polygon.holes) array.values.push_back(hole.degree);
-  });
-  return array;
-}
+DerivedArray polygonIndexOffsets(const ArraySource& mesh) { return listed(mesh, Listed::kIndexOffsets); }
+DerivedArray polygonLoops(const ArraySource& mesh) { return listed(mesh, Listed::kLoops); }
+DerivedArray polygonLoopOffsets(const ArraySource& mesh) { return listed(mesh, Listed::kLoopOffsets); }
+DerivedArray ringDegrees(const ArraySource& mesh) { return listed(mesh, Listed::kDegrees); }
 
 DerivedArray weldedWedges(const ArraySource& mesh) {
   DerivedArray array{std::vector<Index>(mesh.wedge_count), {0, mesh.wedge_count}};

@@ -63,6 +63,7 @@ class PolygonTable {
   Index size() const { return static_cast<Index>(degrees_.size()); }
   Index firstCorner(Index face) const { return firsts_[face]; }
   bool isHole(Index face) const { return !owners_.empty() && owners_[face] != kNone; }
+  bool hasHoles(Index face) const { return !owners_.empty() && hole_starts_[face] != hole_starts_[face + 1]; }
 
   Polygon operator[](Index face) const {
     Polygon polygon;

@@ -21,7 +21,15 @@ inline void storeBytes(uint8_t* data, uint32_t size, uint32_t value) {
 }
 
 inline float loadFloat(const uint8_t* data) { return std::bit_cast<float>(loadBytes(data, 4)); }
-inline void storeFloat(uint8_t* data, float value) { storeBytes(data, 4, std::bit_cast<uint32_t>(value)); }
+
+/// Without a loop, so that compilers make one store of it.
+[[gnu::always_inline]] inline void storeFourBytes(uint8_t* data, uint32_t value) {
+  data[0] = static_cast<uint8_t>(value);
+  data[1] = static_cast<uint8_t>(value >> 8);
+  data[2] = static_cast<uint8_t>(value >> 16);
+  data[3] = static_cast<uint8_t>(value >> 24);
+}
+inline void storeFloat(uint8_t* data, float value) { storeFourBytes(data, std::bit_cast<uint32_t>(value)); }
 
 constexpr bool isSigned(ComponentType type) { return type == ComponentType::kInt8 || type == ComponentType::kInt16; }
 

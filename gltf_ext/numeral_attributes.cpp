@@ -47,7 +47,7 @@ void spreadFloats(std::span<const uint32_t> floats, const WedgeSites& wedges, At
   attribute.data.resize(wedgeCount(wedges) * attribute.stride());
   for (size_t w = 0; w < wedgeCount(wedges); ++w) {
     for (size_t c = 0; c < components; ++c) {
-      storeBytes(&attribute.data[w * attribute.stride() + 4 * c], 4, floats[siteOf(wedges, w) * components + c]);
+      storeFourBytes(&attribute.data[w * attribute.stride() + 4 * c], floats[siteOf(wedges, w) * components + c]);
     }
   }
 }

@@ -55,8 +55,10 @@ void spreadValues(std::vector<int32_t>&& values, const WedgeSites& wedges, Plane
   }
   const size_t components = plane.components;
   plane.values.resize(wedges.site_of.size() * components);
-  for (size_t w = 0; w < wedges.site_of.size(); ++w) {
-    std::copy_n(&values[wedges.site_of[w] * components], components, &plane.values[w * components]);
+  int32_t* target = plane.values.data();
+  for (const Index site : wedges.site_of) {
+    const int32_t* const source = &values[site * components];
+    for (size_t i = 0; i < components; ++i) *target++ = source[i];
   }
 }
 
