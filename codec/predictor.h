@@ -122,7 +122,12 @@ class Predictor {
   /// Codes one decision.
   template <class Port>
   bool code(Port& port, Selectors selectors, bool value) requires(kMixes) {
+#if defined(TUTTE_COMPACT)
+    Slot unused;  // without an opinion, so that there is one text for both
+    return code(port, selectors, unused, 0, value);
+#else
     return mixed<false>(port, selectors, nullptr, 0, value);
+#endif
   }
   template <class Port>
   [[gnu::always_inline]] bool code(Port& port, Selectors selectors, bool value) requires(!kMixes) {

@@ -124,7 +124,7 @@ TUTTE_TABLE Distribution kEvenPrior = madeTable([] {
 /// One context (`two` false) or two. Few habits, because small meshes visit each of them seldom.
 class ClassCoder {
  public:
-  static constexpr bool kWantsAll = false;
+  static constexpr bool wantsAll() { return false; }
 
   explicit ClassCoder(bool two)
       : two_(two),

@@ -68,18 +68,19 @@ inline std::vector<SurfaceNormal> surfaceNormals(const ValueGraph& graph, Places
 
 /// Directions: the surface's normal, the same with the neighbours' deviation from theirs, or the neighbours' mean
 /// direction: whichever was best at the neighbours. Where directions point into the surface, so do predictions.
+template <int C>
 class DirectionGuide {
  public:
-  static constexpr bool kWantsEdges = false;
+  static bool wantsEdges(ValueKind) { return false; }
 
   /// Without places (an empty span), only the neighbours count. `max` is twice the octahedron's centre.
-  DirectionGuide(const ValueGraph& graph, const Nodes<2>& nodes, std::span<const int32_t> places, int32_t max,
-                 Weighting weighting)
+  DirectionGuide(const ValueGraph& graph, const Nodes<C>& nodes, std::span<const int32_t> places, int32_t max,
+                 ValueKind, Weighting weighting)
       : nodes_(nodes), states_(graph.siteCount()), centre_(max / 2) {
     if (!places.empty()) surface_ = surfaceNormals(graph, Places(places), weighting);
   }
 
-  void refine(const Surroundings& around, Stencil<2, int32_t>& stencil) {
+  void refine(const Surroundings& around, Stencil<C, int32_t>& stencil) {
     std::array<int32_t, kCandidates> errors{};
     std::array<int32_t, 3> sum{}, normals{};
     const auto count = static_cast<int32_t>(around.neighbours.size());
@@ -100,10 +101,10 @@ class DirectionGuide {
     if (count > 0 || here_ != SurfaceNormal{}) choose(errors, stencil);
   }
 
-  void learn(Index, const std::array<int32_t, 2>& value) {
+  void learn(Index, const Vec<C, int32_t>& value) {
     State& state = states_[nodes_.count() - 1];
-    const Vec<2, int32_t> truth = {value[0] << kFraction, value[1] << kFraction};
-    for (int k = 0; k < kCandidates; ++k) state.errors[k] = static_cast<int32_t>(distance(truth, bases_[k]));
+    const Vec<C, int32_t> truth = {value[0] << kFraction, value[1] << kFraction};
+    for (int k = 0; k < kCandidates; ++k) state.errors[k] = static_cast<int32_t>(distance<C>(truth, bases_[k]));
     const Vector3 direction = fromOctahedron(value[0], value[1], centre_);
     const int64_t along = dot(direction, Vector3{here_[0], here_[1], here_[2]});
     if (along < 0) {
@@ -130,7 +131,7 @@ class DirectionGuide {
   }
 
   void predict(const std::array<int32_t, 3>& sum, const std::array<int32_t, 3>& normals, int32_t count,
-               const Vec<2, int32_t>& fallback) {
+               const Vec<C, int32_t>& fallback) {
     Vector3 mean_direction{sum[0], sum[1], sum[2]}, deviating{here_[0], here_[1], here_[2]};
     bases_[kSurface] = project(here_ == SurfaceNormal{} ? mean_direction : deviating, fallback);
     for (int i = 0; i < 3 && count > 0; ++i) deviating[i] += mean(sum[i] - normals[i], static_cast<uint32_t>(count));
@@ -138,13 +139,13 @@ class DirectionGuide {
     bases_[kNeighbourMean] = count > 0 ? project(mean_direction, fallback) : bases_[kDeviating];
   }
 
-  Vec<2, int32_t> project(const Vector3& direction, const Vec<2, int32_t>& fallback) const {
+  Vec<C, int32_t> project(const Vector3& direction, const Vec<C, int32_t>& fallback) const {
     if (direction == Vector3{}) return fallback;
     const auto [s, t] = toOctahedron(direction, centre_, kFraction);
     return {static_cast<int32_t>(s), static_cast<int32_t>(t)};
   }
 
-  void choose(const std::array<int32_t, kCandidates>& errors, Stencil<2, int32_t>& stencil) {
+  void choose(const std::array<int32_t, kCandidates>& errors, Stencil<C, int32_t>& stencil) {
     int best = 0;
     for (int k = 1; k < kCandidates; ++k) best = errors[k] < errors[best] ? k : best;
     int second = best == 0 ? 1 : 0;
@@ -157,7 +158,7 @@ class DirectionGuide {
     }
   }
 
-  const Nodes<2>& nodes_;
+  const Nodes<C>& nodes_;
   std::vector<SurfaceNormal> surface_;  // by site; empty: unknown
   std::vector<State> states_;           // by site
   const int64_t centre_;
@@ -166,7 +167,7 @@ class DirectionGuide {
   // Of the current site.
   SurfaceNormal here_{};  // on the side on which the direction is
   bool inward_ = false;
-  std::array<Vec<2, int32_t>, kCandidates> bases_{};
+  std::array<Vec<C, int32_t>, kCandidates> bases_{};
 };
 
 }  // namespace tutte::values

@@ -9,6 +9,7 @@
 
 #include "codec/value_geometry.h"
 #include "codec/value_stencil.h"
+#include "codec/values.h"
 
 namespace tutte::values {
 
@@ -19,9 +20,9 @@ inline constexpr int kWeightings = 3;
 /// For attributes without relatives.
 template <int C>
 struct NoGuide {
-  static constexpr bool kWantsEdges = false;
+  static bool wantsEdges(ValueKind) { return false; }
 
-  NoGuide(const ValueGraph&, const Nodes<C>&, std::span<const int32_t>, int32_t, Weighting) {}
+  NoGuide(const ValueGraph&, const Nodes<C>&, std::span<const int32_t>, int32_t, ValueKind, Weighting) {}
   template <class T>
   void refine(const Surroundings&, Stencil<C, T>&) {}
   void learn(Index, const Vec<C, int32_t>&) {}
@@ -45,21 +46,25 @@ class Places {
   std::span<const int32_t> values_;
 };
 
-inline int64_t distance(const Vec<2, int32_t>& a, const Vec<2, int32_t>& b) {
+/// Of the first two components.
+template <int C>
+int64_t distance(const Vec<C, int32_t>& a, const Vec<C, int32_t>& b) {
   const int64_t x = a[0] - b[0], y = a[1] - b[1];
   return std::min<int64_t>((x < 0 ? -x : x) + (y < 0 ? -y : y), 1 << 20);
 }
 
 /// Texture coordinates: the texture is taken to lie on the surface without distortion, so a triangle in space, two
 /// corners of which have known coordinates, gives the third's, once it is known whether the texture is mirrored.
+template <int C>
 class TexcoordGuide {
  public:
-  static constexpr bool kWantsEdges = true;
+  static bool wantsEdges(ValueKind) { return true; }
 
-  TexcoordGuide(const ValueGraph& graph, const Nodes<2>& nodes, std::span<const int32_t> places, int32_t max, Weighting)
+  TexcoordGuide(const ValueGraph& graph, const Nodes<C>& nodes, std::span<const int32_t> places, int32_t max, ValueKind,
+                Weighting)
       : nodes_(nodes), places_(places), states_(graph.siteCount()), limit_(int64_t{max} << kFraction) {}
 
-  void refine(const Surroundings& around, Stencil<2, int32_t>& stencil) {
+  void refine(const Surroundings& around, Stencil<C, int32_t>& stencil) {
     count_ = 0;
     int64_t here_error = 0, stencil_error = 0;
     for (const Index neighbour : around.neighbours) {
@@ -77,11 +82,11 @@ class TexcoordGuide {
       stencil.lean = here_base_;
   }
 
-  void learn(Index, const std::array<int32_t, 2>& value) {
-    const Vec<2, int32_t> truth = {value[0] << kFraction, value[1] << kFraction};
+  void learn(Index, const Vec<C, int32_t>& value) {
+    const Vec<C, int32_t> truth = {value[0] << kFraction, value[1] << kFraction};
     State& state = states_[nodes_.count() - 1];
-    state.here_error = static_cast<uint32_t>(distance(truth, here_base_));
-    state.stencil_error = static_cast<uint32_t>(distance(truth, stencil_base_));
+    state.here_error = static_cast<uint32_t>(distance<C>(truth, here_base_));
+    state.stencil_error = static_cast<uint32_t>(distance<C>(truth, stencil_base_));
     if (count_ == 0) return;
     const int64_t x = value[0] - nodes_[edge_].value[0], y = value[1] - nodes_[edge_].value[1];
     const int64_t side = edge_step_[0] * y - edge_step_[1] * x;
@@ -98,7 +103,7 @@ class TexcoordGuide {
 
   /// The prediction from an edge that runs round the face that the site belongs to.
   void develop(Index site, const Edge& side) {
-    if (count_ == Stencil<2, int32_t>::kMostMembers) return;
+    if (count_ == Stencil<C, int32_t>::kMostMembers) return;
     Vector3 edge = places_.between(side.from, side.to), leg = places_.between(side.from, site);
     const int64_t largest = std::max(largestMagnitude(edge), largestMagnitude(leg));
     const int shift = static_cast<int>(std::bit_width(static_cast<uint64_t>(largest))) - 14;
@@ -106,10 +111,10 @@ class TexcoordGuide {
     const int64_t square = dot(edge, edge), along = dot(edge, leg);
     if (square == 0) return;
     const int64_t across = squareRoot(static_cast<uint64_t>(dot(leg, leg) * square - along * along));
-    const std::array<int32_t, 2>&from = nodes_[side.from].value, &to = nodes_[side.to].value;
+    const Vec<C, int32_t>&from = nodes_[side.from].value, &to = nodes_[side.to].value;
     const int64_t dx = int64_t{to[0]} - from[0], dy = int64_t{to[1]} - from[1];
     const int64_t height = turnAt(side.from, side.to) < 0 ? -across : across;
-    Vec<2, int32_t>& member = members_[count_];
+    Vec<C, int32_t>& member = members_[count_];
     const auto place = [&](int32_t start, int64_t step) {
       const int64_t x = (int64_t{start} << kFraction) + step * (1 << kFraction) / square;
       return static_cast<int32_t>(std::clamp(x, -limit_, 2 * limit_));
@@ -135,7 +140,7 @@ class TexcoordGuide {
     }
   }
 
-  void adopt(Stencil<2, int32_t>& stencil, bool weak) {
+  void adopt(Stencil<C, int32_t>& stencil, bool weak) {
     stencil.adopt(Source::kAcrossTriangle, here_base_, std::span(members_.data(), static_cast<size_t>(count_)));
     if (weak) return;
     stencil.lean = stencil_base_;
@@ -146,7 +151,7 @@ class TexcoordGuide {
     }
   }
 
-  const Nodes<2>& nodes_;
+  const Nodes<C>& nodes_;
   const Places places_;
   std::vector<State> states_;  // by site
   const int64_t limit_;
@@ -154,8 +159,8 @@ class TexcoordGuide {
 
   // Of the current site.
   int count_ = 0;
-  std::array<Vec<2, int32_t>, Stencil<2, int32_t>::kMostMembers> members_;
-  Vec<2, int32_t> here_base_{}, stencil_base_{};
+  std::array<Vec<C, int32_t>, Stencil<C, int32_t>::kMostMembers> members_{};
+  Vec<C, int32_t> here_base_{}, stencil_base_{};
   Index edge_ = 0;  // the first prediction's start
   std::array<int64_t, 2> edge_step_{};
 };

@@ -17,7 +17,7 @@ namespace tutte::values {
 /// Codes residuals by their bit length (a walk up or down from the expected one, by mixed contexts), sign and digits.
 class MixingCoder {
  public:
-  static constexpr bool kWantsAll = true;
+  static constexpr bool wantsAll() { return true; }
 
   MixingCoder() : lines_(kStarts[kInputs]) {
     Weights<kInputs> initial;

@@ -29,26 +29,28 @@ class SitePredictor {
   struct Options {
     int components;
     int32_t max;
-    bool points;
+    ValueKind kind;
     bool fast;
     bool echoes;
     bool copies;
     Weighting weighting;
+
+    bool points() const { return kind == ValueKind::kPoints; }
   };
 
   SitePredictor(Port& port, const ValueGraph& graph, std::span<const int32_t> places, const Options& options,
                 Residuals& residuals)
       : port_(port),
-        finder_(graph, Guide::kWantsEdges, !options.fast),
+        finder_(graph, Guide::wantsEdges(options.kind), !options.fast),
         nodes_(graph.siteCount()),
         stencil_(nodes_, options.max),
-        guide_(graph, nodes_, places, options.max, options.weighting),
+        guide_(graph, nodes_, places, options.max, options.kind, options.weighting),
         residuals_(residuals),
         count_(options.components),
         max_(options.max),
-        tangent_(options.points && !options.fast) {
+        tangent_(options.points() && !options.fast) {
     if (options.echoes) echoes_.emplace(graph, nodes_, count_);
-    if (options.copies) copies_.emplace(graph, nodes_, options.points);
+    if (options.copies) copies_.emplace(graph, nodes_, options.points());
     picks_.fill(Chance(6160));
   }
 
@@ -195,7 +197,7 @@ class SitePredictor {
       prediction += static_cast<T>(plane_.correction(so_far.raw, all_error_, situation));
     }
     const auto rounded = static_cast<int32_t>(std::clamp<T>((prediction + 8) >> kFraction, 0, max_));
-    const Expectation about = expect<Coder::kWantsAll>(i, place, so_far, prediction);
+    const Expectation about = expect(i, place, so_far, prediction, coder.wantsAll());
     int32_t coded = rounded + coder.code(port_, about, wanted_[i] - rounded);
     if (static_cast<uint32_t>(coded) > static_cast<uint32_t>(max_)) [[unlikely]] {
       damaged_ = true;
@@ -213,8 +215,8 @@ class SitePredictor {
 
   uint32_t source() const { return parallelograms() ? stencil_.source == Source::kWithin ? 0 : 1 : 2; }
 
-  template <bool kWantsAll>
-  [[gnu::always_inline]] Expectation expect(size_t i, size_t place, const SoFar& so_far, T prediction) const {
+  [[gnu::always_inline]] Expectation expect(size_t i, size_t place, const SoFar& so_far, T prediction,
+                                            bool wants_all) const {
     Expectation about;
     about.near = near_error_[i];
     about.spread =
@@ -229,7 +231,7 @@ class SitePredictor {
     const int32_t around = (usual + (place == 0 ? usual : so_far.weighed)) >> 2;
     // Nothing is decided, because whether there are several parallelograms is hard to foresee.
     about.estimate = (around + (((about.spread - around) & several_) >> 1)) >> picked_;
-    if constexpr (kWantsAll) {
+    if (wants_all) {
       about.all = all_error_;
       about.so_far = so_far.errors;
       about.widest = static_cast<int32_t>(std::min(*std::ranges::max_element(stencil_.spread), kWidest));

@@ -20,10 +20,23 @@ class Residuals {
       classes_.emplace(two_contexts);
   }
 
-  /// Calls visit(coder) with one of the coders.
+  /// Calls visit(coder) with one of the coders, or with this, which is one, too: where a program's size counts, what
+  /// visits exists once.
   template <class Visit>
   [[gnu::always_inline]] void withCoder(Visit visit) {
+#if defined(TUTTE_COMPACT)
+    visit(*this);
+#else
     classes_ ? visit(*classes_) : visit(*mixing_);
+#endif
+  }
+
+  /// Whether expectations must be complete.
+  bool wantsAll() const { return mixing_.has_value(); }
+
+  template <class Port>
+  [[gnu::always_inline]] int32_t code(Port& port, const Expectation& about, int32_t residual) {
+    return classes_ ? classes_->code(port, about, residual) : mixing_->code(port, about, residual);
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "codec/value_directions.h"
+#include "codec/value_guide_any.h"
 #include "codec/value_labels.h"
 #include "codec/value_port.h"
 #include "codec/value_predictor.h"
@@ -13,6 +14,7 @@
 namespace tutte {
 namespace {
 
+using values::AnyGuide;
 using values::DirectionGuide;
 using values::NoGuide;
 using values::SitePredictor;
@@ -37,20 +39,25 @@ struct Run {
   }
 
   Error numbers() {
+    if (format.kind == ValueKind::kPlain && format.max > kMaxPoint) return code<4, int64_t, NoGuide<4>>();
+#if defined(TUTTE_COMPACT)
+    return code<4, int32_t, AnyGuide>();
+#else
     switch (format.kind) {
-      case ValueKind::kTexcoord: return code<2, int32_t, TexcoordGuide>();
-      case ValueKind::kDirection: return code<2, int32_t, DirectionGuide>();
-      default: return format.max <= kMaxPoint ? code<4, int32_t, NoGuide<4>>() : code<4, int64_t, NoGuide<4>>();
+      case ValueKind::kTexcoord: return code<2, int32_t, TexcoordGuide<2>>();
+      case ValueKind::kDirection: return code<2, int32_t, DirectionGuide<2>>();
+      default: return code<4, int32_t, NoGuide<4>>();
     }
+#endif
   }
 
   template <int C, class T, class Guide>
   Error code() {
-    const bool points = format.kind == ValueKind::kPoints, fast = format.profile == ValueProfile::kFast;
+    const bool fast = format.profile == ValueProfile::kFast;
     values::Residuals residuals(format.profile == ValueProfile::kSmall, !fast);
     SitePredictor<Port, C, T, Guide> predictor(
         port, sites.graph, sites.places,
-        {format.components, format.max, points, fast, format.echoes, format.copies, weighting}, residuals);
+        {format.components, format.max, format.kind, fast, format.echoes, format.copies, weighting}, residuals);
     const Error error = everySite([&] { predictor.code(values); });
     if (error != Error::kNone) return error;
     return predictor.damaged() ? Error::kMalformed : Error::kNone;

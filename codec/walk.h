@@ -143,10 +143,12 @@ class Walk : public SplitBoundary<Script> {
         return Base::reachBack(face) ? attachWith<1>(face) : Attached{fail(Error::kMalformed)};
       }
     }
-    return attachFar(face);
+    return kUsualFaces ? attachFar(face) : attachAny(face);
   }
 
-  [[gnu::noinline]] Attached attachFar(Face face) {
+  [[gnu::noinline]] Attached attachFar(Face face) { return attachAny(face); }
+
+  [[gnu::always_inline]] Attached attachAny(Face& face) {
     return Base::reachOut(face) ? attachWith<kAnyReach>(face) : Attached{fail(Error::kMalformed)};
   }
 
