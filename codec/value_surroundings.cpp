@@ -178,46 +178,55 @@ void SurroundingsFinder::addEdges(const Faces& faces, size_t side) {
   addEdge(graph_.site(faces.prev(prev)), b);
 }
 
-// Over the edges that are opposite or beside; weaker than what is within. Calls visit(a, c, beyond_a, beyond_c, beyond)
-// with the edge from a, a known side, to c, and corners of the face beyond: next to a and next to c, and any.
-template <class Faces, class Visit>
-[[gnu::always_inline]] inline void SurroundingsFinder::lookFar(const Faces& faces, size_t end, Visit visit) {
+// Over the edges that are opposite or beside, from a neighbour a to c; x lies beyond c. Weaker than what is within.
+template <class Faces>
+void SurroundingsFinder::lookOver(const Faces& faces, size_t end) {
+  const ValueGraph& graph = graph_;
+  const Index here = site_;
+  const Sides& sides = lists_->sides;
+  Term* const most = lists_->over.begin + kMostFar;
+  Term* over = lists_->over.end;
+  const auto add = [&](Index a, Index c, Index beyond) __attribute__((always_inline)) {
+    const Index x = graph.site(beyond);
+    over->a = a, over->b = c, over->x = x;
+    over->y = faces.degree(beyond) == 3;
+    over += (x < here) & (over < most);
+  };
+  for (size_t side = 1; side < end; ++side) {
+    const Index prev = sides.corner[side];
+    if (prev == kNone || faces.degree(prev) <= 3) continue;
+    const Index a = sides.site[side - 1], b = sides.site[side];
+    if (a < here) {
+      const Index edge = faces.next(faces.next(prev)), c = graph.site(faces.next(edge)), beyond = graph.twin(edge);
+      if (c < here && beyond != kNone) add(a, c, faces.prev(beyond));
+    }
+    if (b < here) {
+      const Index edge = faces.prev(prev), c = graph.site(edge), beyond = graph.twin(edge);
+      if (c < here && beyond != kNone) add(b, c, faces.next(faces.next(beyond)));
+    }
+  }
+  lists_->over.end = over;
+}
+
+// On from what lies beyond a neighbour, over that neighbour.
+template <class Faces>
+void SurroundingsFinder::lookStraight(const Faces& faces, size_t end) {
   const Sides& sides = lists_->sides;
   for (size_t side = 0; side < end; ++side) {
     const Index prev = sides.corner[side];
     if (prev == kNone || faces.degree(prev) <= 3) continue;
+    const Index beyond_a = graph_.twin(faces.next(faces.next(prev))), beyond_b = graph_.twin(faces.prev(prev));
     const Index a = sides.site[side - 1], b = sides.site[side];
-    if (known(a)) {
-      const Index edge = faces.next(faces.next(prev)), beyond = graph_.twin(edge);
-      if (beyond != kNone) visit(a, graph_.site(faces.next(edge)), faces.next(faces.next(beyond)), faces.prev(beyond));
-    }
-    if (known(b)) {
-      const Index edge = faces.prev(prev), beyond = graph_.twin(edge);
-      if (beyond != kNone) visit(b, graph_.site(edge), faces.prev(beyond), faces.next(faces.next(beyond)));
-    }
+    if (known(a) && beyond_a != kNone) addStraight(faces, a, faces.next(faces.next(beyond_a)));
+    if (known(b) && beyond_b != kNone) addStraight(faces, b, faces.prev(beyond_b));
   }
 }
 
-// The neighbour a, and what lies across the edge to c from x, which lies beyond c.
 template <class Faces>
-void SurroundingsFinder::lookOver(const Faces& faces, size_t end) {
-  auto& over = lists_->over;
-  lookFar(
-      faces, end, [&](Index a, Index c, Index, Index beyond_c) __attribute__((always_inline)) {
-        const Index x = graph_.site(beyond_c);
-        over.add({a, c, x, faces.degree(beyond_c) == 3}, known(c) & known(x) & (over.size() < kMostFar));
-      });
-}
-
-// On from y, which lies beyond a, over a itself.
-template <class Faces>
-void SurroundingsFinder::lookStraight(const Faces& faces, size_t end) {
+[[gnu::always_inline]] inline void SurroundingsFinder::addStraight(const Faces& faces, Index a, Index beyond) {
+  const Index y = graph_.site(beyond);
   auto& straight = lists_->straight;
-  lookFar(
-      faces, end, [&](Index a, Index, Index beyond_a, Index) __attribute__((always_inline)) {
-        const Index y = graph_.site(beyond_a);
-        straight.add({a, a, y, 0}, known(y) & (faces.degree(beyond_a) > 3) & (straight.size() < kMostFar));
-      });
+  straight.add({a, a, y, 0}, known(y) & (faces.degree(beyond) > 3) & (straight.size() < kMostFar));
 }
 
 }  // namespace tutte::values

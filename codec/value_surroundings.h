@@ -118,12 +118,12 @@ class SurroundingsFinder {
   void visitLarge(const Faces& faces, size_t side);
   template <class Faces>
   void addEdges(const Faces& faces, size_t side);
-  template <class Faces, class Visit>
-  void lookFar(const Faces& faces, size_t end, Visit visit);
   template <class Faces>
   void lookOver(const Faces& faces, size_t end);
   template <class Faces>
   void lookStraight(const Faces& faces, size_t end);
+  template <class Faces>
+  void addStraight(const Faces& faces, Index a, Index beyond);
   void addEdge(Index from, Index to) { lists_->edges.add({from, to}, known(from) & known(to)); }
 
   bool known(Index site) const { return site < site_; }
