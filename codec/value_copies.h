@@ -19,9 +19,9 @@ class Copies {
  public:
   using Values = Vec<C, T>;
 
-  /// `points`: values are points of space, and copies may be turned.
-  Copies(const ValueGraph& graph, const Nodes<C>& nodes, bool points)
-      : nodes_(nodes), points_(points), links_(graph.siteCount()), states_(graph.copies().size()) {
+  /// `turns`: values may be points of space, and copies turned.
+  Copies(const ValueGraph& graph, const Nodes<C>& nodes, bool turns)
+      : nodes_(nodes), turns_(turns), links_(graph.siteCount()), states_(graph.copies().size()) {
     for (Index copy = 0; copy < states_.size(); ++copy) {
       const ComponentCopy& range = graph.copies()[copy];
       for (Index i = 0; i < range.count; ++i) {
@@ -60,7 +60,7 @@ class Copies {
       usual_error_ += (4 * error - usual_error_) >> 4;
       usual_own_error_ += (4 * own_error - usual_own_error_) >> 4;
     }
-    state_->motion.learn(source_, value, points_);
+    state_->motion.learn(source_, value, turns_);
   }
 
  private:
@@ -93,7 +93,7 @@ class Copies {
   static constexpr int64_t kMostError = 1 << 14;
 
   const Nodes<C>& nodes_;
-  const bool points_;
+  const bool turns_;
   std::vector<Link> links_;    // per site
   std::vector<State> states_;  // per copy
   int64_t usual_error_ = 0, usual_own_error_ = 0;

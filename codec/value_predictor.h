@@ -50,7 +50,7 @@ class SitePredictor {
         max_(options.max),
         tangent_(options.points() && !options.fast) {
     if (options.echoes) echoes_.emplace(graph, nodes_, count_);
-    if (options.copies) copies_.emplace(graph, nodes_, options.points());
+    if (options.copies) copies_.emplace(graph, nodes_, sizeof(T) == 4 && count_ == 3);
     picks_.fill(Chance(6160));
   }
 

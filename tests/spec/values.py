@@ -24,7 +24,7 @@ class Coder:
         self.picks, self.indices, self.gains = Chances(6160), Chances(), {}
         self.residuals = Lengths() if profile == SMALL else Classes(profile == FAST)
         self.echoes = Echoes(self) if echoes else None
-        self.copies = Copies(graph.mesh, graph.site, self.values, m == 3 and kind == POINTS) if copies else None
+        self.copies = Copies(graph.mesh, graph.site, self.values, m == 3 and maximum < 2**20) if copies else None
         self.weighting = weighting
         self.guide = {TEXTURE: Textures, DIRECTION: Directions}.get(kind, lambda *_: None)(self, places)
 
