@@ -13,7 +13,7 @@ namespace tutte {
 
 /// How the encoder works. No choice changes what is decoded, only how many bytes it takes.
 struct EncodeOptions {
-  /// Statistics; by default chosen by size: small up to 40,000 corners, fast above 40 million, else default.
+  /// Statistics; by default chosen by size, see profileFor().
   std::optional<Profile> profile;
   /// How long to search for choices that make fewer bytes: 0 not at all, 1 while it costs little, 2 as long as files
   /// are worth it, 3 as long as anybody might wait.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace tutte {
@@ -11,5 +12,12 @@ enum class Profile : uint8_t {
   kDefault = 2,  ///< seven contexts for valences and five for degrees, mixed
   kSmall = 3,    ///< fifteen contexts, mixed by three sets of weights, and a final map
 };
+
+/// What the encoder takes where the user leaves it open: the best statistics for meshes so small that their time does
+/// not count, the fastest for huge ones.
+constexpr Profile profileFor(size_t corners) {
+  if (corners <= 2'000) return Profile::kSmall;
+  return corners <= 40'000'000 ? Profile::kDefault : Profile::kFast;
+}
 
 }  // namespace tutte

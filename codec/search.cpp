@@ -22,12 +22,6 @@ int tableBitsFor(const Topology& topology) {
   return std::clamp(static_cast<int>(std::bit_width(topology.valence.size())) - 4, 7, 11);
 }
 
-// Small meshes get the best profile, because their time does not count; huge ones the fastest.
-Profile profileFor(size_t corners) {
-  if (corners <= 40'000) return Profile::kSmall;
-  return corners <= 40'000'000 ? Profile::kDefault : Profile::kFast;
-}
-
 class Search {
  public:
   Search(TopologyPair& topologies, const EncodeOptions& options, EncoderMemory& memory)

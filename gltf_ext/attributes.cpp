@@ -117,15 +117,9 @@ struct Stream {
   std::vector<uint8_t> bytes;
 };
 
-/// The connectivity's profile; where it is left open, small meshes get the best, because their time does not count, and
-/// huge ones the fastest.
+/// The connectivity's profile.
 ValueProfile valueProfile(std::optional<Profile> profile, size_t corners) {
-  if (!profile) {
-    return corners <= 40'000       ? ValueProfile::kSmall
-           : corners <= 40'000'000 ? ValueProfile::kDefault
-                                   : ValueProfile::kFast;
-  }
-  switch (*profile) {
+  switch (profile.value_or(profileFor(corners))) {
     case Profile::kFast: return ValueProfile::kFast;
     case Profile::kSmall: return ValueProfile::kSmall;
     default: return ValueProfile::kDefault;
