@@ -7,6 +7,7 @@
 #include "codec/gaps.h"
 #include "codec/match.h"
 #include "codec/model.h"
+#include "codec/plain_faces.h"
 #include "codec/predictor.h"
 #include "codec/section.h"
 #include "codec/walk.h"
@@ -24,7 +25,8 @@ struct ContextList {
 };
 
 /// A profile has lists of contexts, and says whether it is rich (see Predictor), whether the most frequent degree is
-/// asked for first (that takes fewer decisions, and a few bytes more), and whether any context looks at the history.
+/// asked for first (that takes fewer decisions, and a few bytes more; then PlainFaces are looked for, too), and whether
+/// any context looks at the history.
 
 /// One context each, nothing to mix.
 struct FastProfile {
@@ -102,7 +104,7 @@ class MixedStatistics {
   FaceAnswer face(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {
     const FaceAnswer answer = codeFace(port, question, truth);
     if (Profile::kHistory) history_.addDegree(answer.dummy ? 1 : answer.degree);
-    match_.add(128 + (answer.dummy ? 1 : std::min(answer.degree, Index{100})));
+    if (!plainly_) match_.add(128 + (answer.dummy ? 1 : std::min(answer.degree, Index{100})));
     return answer;
   }
 
@@ -145,16 +147,43 @@ class MixedStatistics {
   FaceAnswer codeFace(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {
     const Index known = question.closed ? question.known_edges : header_.uniform_degree;
     const bool may_be_dummy = header_.hasDummyFaces() && question.gap != nullptr && !touchesDummy(question);
+    plainly_ = false;
     if (known != 0 && !may_be_dummy) return {known, false};
-    return codeUnknownFace(port, question, truth, known, may_be_dummy);
+    FaceBounds bounds{known, std::max(header_.leastDegree(), question.known_edges + 1), may_be_dummy};
+    if (!Profile::kUsualDegree || (known == 0 && usual_degree_.of(0) < bounds.least)) {
+      return codeUnknownFace(port, question, truth, bounds);
+    }
+    const Index expected = known != 0 ? known : usual_degree_.of(0);
+    bounds.not_plain = plain_.isSure(question, expected, may_be_dummy) && matchAllows(expected);
+    port.about(known == 0 ? Topic::kDegrees : Topic::kHoles);
+    if (bounds.not_plain && plain_.code(port, !truth.dummy && truth.degree == expected)) {
+      if (known == 0) usual_degree_.addUsual(0);
+      plainly_ = true;
+      return {expected, false};
+    }
+    const FaceAnswer answer = codeUnknownFace(port, question, truth, bounds);
+    if (!bounds.not_plain) plain_.note(!answer.dummy && answer.degree == expected);
+    return answer;
   }
 
-  // `known`: its degree, or 0. The most frequent degree, if it is possible, is asked for first.
+  // What is known of a face: its degree, or 0; the least that it can be; and that it is not plain.
+  struct FaceBounds {
+    Index known, least;
+    bool may_be_dummy, not_plain = false;
+  };
+
+  // Does the match expect no other face than one of this degree?
+  bool matchAllows(Index expected) const {
+    const Index symbol = match_.expected();
+    return symbol == MatchModel::kNoSymbol || symbol < 128 || symbol == 128 + expected;
+  }
+
+  // The most frequent degree, if it is possible, is asked for first.
   template <class Port>
-  FaceAnswer codeUnknownFace(Port& port, const FaceQuestion& question, const FaceAnswer& truth, Index known,
-                             bool may_be_dummy) {
+  [[gnu::noinline]] FaceAnswer codeUnknownFace(Port& port, const FaceQuestion& question, const FaceAnswer& truth,
+                                               const FaceBounds& bounds) {
     const FaceFeatures features(question, history_);
-    const Index least = std::max(header_.leastDegree(), question.known_edges + 1);
+    const Index known = bounds.known, least = bounds.least;
     const Index usual = Profile::kUsualDegree ? usual_degree_.of(0) : 0;
     faces_.enter(Profile::Face::keys(features, std::min(usual, Index{15})));
     const Index symbol = match_.expected(), expected = symbol - 128;
@@ -164,12 +193,14 @@ class MixedStatistics {
       return this->decide(port, faces_, {node, situation + 64 * step}, matched, value);
     };
     port.about(Topic::kDegrees);
-    if (known == 0 && usual >= least && decide(0, 0, expected == usual, !truth.dummy && truth.degree == usual)) {
+    if (known == 0 && usual >= least && !bounds.not_plain &&
+        decide(0, 0, expected == usual, !truth.dummy && truth.degree == usual)) {
       usual_degree_.addUsual(0);
       return {usual, false};
     }
     port.about(Topic::kHoles);
-    if (may_be_dummy && decide(1, 1, expected == 1, truth.dummy)) {
+    const bool must_be_dummy = bounds.not_plain && known != 0;
+    if (must_be_dummy || (bounds.may_be_dummy && decide(1, 1, expected == 1, truth.dummy))) {
       return {question.closed ? known : 3 + dummy_degree_.code(port, truth.degree - 3), true};
     }
     if (known != 0) return {known, false};
@@ -242,6 +273,8 @@ class MixedStatistics {
   History history_;
   UsualSymbol usual_;         // valences, by the face's degree
   UsualSymbol usual_degree_;  // all degrees in one class
+  PlainFaces plain_;
+  bool plainly_ = false;  // nothing but a flag of plain_ was coded of the last face
   NumberModel large_valence_, large_degree_, dummy_degree_;
   Index expected_ =
       MatchModel::kNoSymbol;  // what the match expects of the current symbol, until a decision contradicts it

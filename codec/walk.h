@@ -157,6 +157,17 @@ class Walk : public SplitBoundary<Script> {
     if (kDegree == 0) {
       face.answer = script_.face({face.start, face.second, face.head, face.tail, face.edges, face.closed});
     }
+    // Quads are the usual faces of polygon meshes: what follows is there once more for them, with a constant.
+    if (kDegree == 0 && kUsualFaces && kReach != kAnyReach && face.answer.degree == 4 && !face.answer.dummy) {
+      face.answer = {4, false};
+      return attachTold<kReach>(face);
+    }
+    return attachTold<kReach>(face);
+  }
+
+  // The same, once the degree is known.
+  template <int kReach>
+  [[gnu::always_inline]] Attached attachTold(Face& face) {
     if (!open(face)) return {};
     emitKnown(*face.start, face);
     if (kReach == kAnyReach) {

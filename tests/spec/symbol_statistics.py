@@ -164,7 +164,7 @@ class Mixed:
         self.vertex_contexts, self.face_contexts, rich = PROFILES[section.profile]
         self.vertices = Mixer(len(self.vertex_contexts), rich, section.table_bits)
         self.faces = Mixer(len(self.face_contexts), rich, section.table_bits)
-        self.runs = {}
+        self.runs, self.plain_runs = {}, [0] * 16
         self.match = Match(section.match)
         self.valences, self.degrees = [0, 0, 0], [0, 0, 0]
         self.counts = [[0] * 16 for _ in range(16)]
@@ -183,12 +183,13 @@ class Mixed:
         return bit
 
     def face(self, stream, walk, start, edges, closed):
-        self.contradicted = False
+        self.contradicted, self.plainly = False, False
         degree, dummy = self.read_face(stream, walk, start, edges, closed)
         if not self.section.degrees_known:
             symbol = 1 if dummy else degree
             self.degrees = [min(symbol, 255)] + self.degrees[:2]
-            self.match.add(128 + min(symbol, 100))
+            if not self.plainly:
+                self.match.add(128 + min(symbol, 100))
         return degree, dummy
 
     def read_face(self, stream, walk, start, edges, closed):
@@ -198,8 +199,32 @@ class Mixed:
             gaps[g].dummy for g in (start, gaps[start].next, walk.face_head, walk.face_tail))
         if degree and not may_be_dummy:
             return degree, False
-        f = FaceFeatures(walk, start, edges, walk.face_head, walk.face_tail, self.valences, self.degrees)
         least, usual = max(self.section.least_degree, edges + 1), self.usual_degree
+        if not self.usual_degree or (not degree and usual < least):
+            return self.read_unknown(stream, walk, start, edges, closed, degree, least, may_be_dummy, False)
+        expected = degree or usual
+        place = self.plain_place(walk, start, edges, expected, may_be_dummy)
+        run, matched = self.plain_runs[place], self.match.expected()
+        sure = run >= 127 and (matched is None or matched < 128 or matched == 128 + expected)
+        if sure and stream.bit(65536 - 65536 // (run + 2)):
+            self.plainly = True
+            answer = (expected if degree else self.counted_degree(expected)), False
+        else:
+            answer = self.read_unknown(stream, walk, start, edges, closed, degree, least, may_be_dummy, sure)
+        self.plain_runs[place] = min(run + 1, 16383) if answer == (expected, False) else run // 4
+        return answer
+
+    @staticmethod
+    def plain_place(walk, start, edges, expected, may_be_dummy):
+        if start is None:
+            return 0
+        gaps = walk.gaps
+        beside = (start, walk.face_tail, gaps[walk.face_head].prev)
+        return 8 * (edges > 1) + 2 * sum(gaps[g].degree_behind == expected for g in beside) + may_be_dummy
+
+    def read_unknown(self, stream, walk, start, edges, closed, degree, least, may_be_dummy, not_plain):
+        f = FaceFeatures(walk, start, edges, walk.face_head, walk.face_tail, self.valences, self.degrees)
+        usual = self.usual_degree
         self.faces.enter([FACE[name](f) | min(usual, 15) << 44 for name in self.face_contexts])
         situation = f.behind * 3 + min(f.known, 3) - (f.known > 0)
 
@@ -207,9 +232,9 @@ class Mixed:
             return self.decide(stream, self.faces, node, situation + 64 * step,
                                lambda s: int(told(s - 128)) if s >= 128 else None)
 
-        if not degree and usual >= least and decide(0, 0, lambda x: x == usual):
+        if not degree and usual >= least and not not_plain and decide(0, 0, lambda x: x == usual):
             return self.counted_degree(usual), False
-        if may_be_dummy and decide(1, 1, lambda x: x == 1):
+        if (not_plain and degree) or (may_be_dummy and decide(1, 1, lambda x: x == 1)):
             return (degree if closed else 3 + self.dummy_degree.read(stream)), True
         if degree:
             return degree, False
