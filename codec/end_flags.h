@@ -37,16 +37,17 @@ class EndFlags {
 
   void code() {
     codeTouched();
-    for (Index corner = 0; corner < ends_.size(); ++corner) {
-      if (slots_[ways_.umbrella(corner)] < kTouched || !isAsked(corner)) continue;
+    if (!around_.empty()) listCorners();
+    for (const Index corner : corners_) {
+      if (!isAsked(corner)) continue;
       const Index twin = ways_.twin(corner);
       codeEnd(corner, twin);
       codeEnd(twin, corner);
     }
   }
 
-  /// Afterwards.
-  bool isTouched(Index umbrella) const { return slots_[umbrella] >= kTouched; }
+  /// Afterwards: those of the touched umbrellas, in ascending order.
+  const std::vector<Index>& corners() const { return corners_; }
 
  private:
   // Of an umbrella: whether its ends are known to be all joined, or where in `around_` it is.
@@ -71,20 +72,27 @@ class EndFlags {
   // In the order in which asked ends of umbrellas come.
   void codeTouched() {
     uint32_t row = 0;  // of umbrellas, as corners follow each other
-    for (Index corner = 0; corner < ends_.size(); ++corner) {
+    for (Index corner = 0, count = cornerCount(); corner < count; ++corner) {
       Index& slot = slots_[ways_.umbrella(corner)];
       if (slot == kUnknown && isAsked(corner)) slot = codeUmbrella(corner, row);
       row = row * 2 + (slot >= kTouched);
     }
   }
 
+  void listCorners() {
+    for (Index corner = 0, count = cornerCount(); corner < count; ++corner) {
+      if (slots_[ways_.umbrella(corner)] >= kTouched) corners_.push_back(corner);
+    }
+  }
+
+  Index cornerCount() const { return static_cast<Index>(ends_.size()); }
+
   Index codeUmbrella(Index corner, uint32_t row) {
     const bool truth = Port::kWriting && touched_[ways_.umbrella(corner)];
-    const Index next = ways_.next(corner), prev = ways_.prev(corner);
-    const uint32_t before = stateAt(prev), behind = stateAt(next);
-    const bool quiet = row % kRows == 0 && before != kTouched && behind != kTouched;
-    const bool touched = quiet ? quiet_[before * 3 + behind].code(port_, truth)
-                               : touches_.code(port_, contextsOf(corner, row % kRows), 0, truth);
+    const uint32_t behind = stateAt(ways_.next(corner));
+    const bool touched = row % kRows == 0 && behind != kTouched
+                             ? quiet_[behind].code(port_, truth)
+                             : touches_.code(port_, contextsOf(corner, row % kRows), 0, truth);
     if (!touched) return kQuiet;
     around_.push_back(lookAround(corner));
     return kTouched + static_cast<Index>(around_.size() - 1);
@@ -183,8 +191,9 @@ class EndFlags {
   std::vector<uint8_t> touched_;  // a writer's truth about umbrellas
   std::vector<Index> slots_;      // per umbrella
   std::vector<Around> around_;
+  std::vector<Index> corners_;
   uint32_t history_ = 0;  ///< the last flags
-  std::array<values::Chance, 9> quiet_;
+  std::array<values::Chance, 2> quiet_;
   MixedFlag<3> touches_{{27 * 16, kRows * 9, 9 * 32}, 1};
   MixedFlag<6> flags_{{81 * kSeen, 9 * kSeen, 64 * kSeen, 81 * kSeen, 9 * kHistories* kSeen, 81 * kSeen}, 3};
 };

@@ -2,6 +2,7 @@
 // The ways round the faces of a mesh, from corner to corner.
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -42,24 +43,26 @@ struct AnyFaces {
 
 inline constexpr Index kMostWays = 2048;  ///< corners of a face that there is a way round
 
-/// The words of AnyFaces. In larger faces than that, the first one's predecessor and the last one's successor
-/// are these themselves. 4 bytes per corner.
+/// The words of AnyFaces, for faces with `corner_count` corners in all. In larger faces than that, the first one's
+/// predecessor and the last one's successor are these themselves. 4 bytes per corner.
 inline std::vector<uint32_t> faceShapes(std::span<const Index> face_degrees, size_t corner_count) {
-  const auto shapeOf = [](Index back, Index forth, Index degree) {
+  constexpr auto shapeOf = [](Index back, Index forth, Index degree) {
     return back << 20 | (forth & 0xFFF) << 8 | std::min(degree, AnyFaces::kMostDegree);
   };
-  std::vector<uint32_t> shapes;
-  shapes.reserve(corner_count);
+  constexpr std::array<uint32_t, 4> kQuad{shapeOf(3, 1, 4), shapeOf(~0u, 1, 4), shapeOf(~0u, 1, 4),
+                                          shapeOf(~0u, ~2u, 4)};
+  std::vector<uint32_t> shapes(corner_count);
+  uint32_t* shape = shapes.data();
   for (const Index degree : face_degrees) {
     if (degree == 4) {
-      shapes.insert(shapes.end(), {shapeOf(3, 1, 4), shapeOf(~0u, 1, 4), shapeOf(~0u, 1, 4), shapeOf(~0u, ~2u, 4)});
+      shape = std::ranges::copy(kQuad, shape).out;
       continue;
     }
     if (degree == 0) continue;
     const Index wrap = degree <= kMostWays ? degree - 1 : 0;
-    shapes.push_back(shapeOf(wrap, degree > 1, degree));
-    for (Index i = 2; i < degree; ++i) shapes.push_back(shapeOf(~0u, 1, degree));
-    if (degree > 1) shapes.push_back(shapeOf(~0u, 0u - wrap, degree));
+    *shape++ = shapeOf(wrap, degree > 1, degree);
+    for (Index i = 2; i < degree; ++i) *shape++ = shapeOf(~0u, 1, degree);
+    if (degree > 1) *shape++ = shapeOf(~0u, 0u - wrap, degree);
   }
   return shapes;
 }

@@ -20,15 +20,15 @@ struct Runs {
   std::vector<Index> of_corner, firsts;
   std::vector<Index> before, after;  ///< per run, its neighbours around the umbrella; kNone at a boundary
 
-  /// `ends` are EndStates. Umbrellas for which wanted(umbrella) is false are left out: of_corner is kNone.
-  template <class Wanted>
-  Runs(const UmbrellaWays& ways, std::span<const uint8_t> ends, Wanted wanted) : of_corner(ends.size(), kNone) {
-    for (Index corner = 0; corner < ends.size(); ++corner) {
-      if (wanted(ways.umbrella(corner)) && of_corner[corner] == kNone) add(ways, ends, corner);
+  /// `ends` are EndStates, `corners` all of some umbrellas, in ascending order: of others, of_corner is kNone.
+  Runs(const UmbrellaWays& ways, std::span<const uint8_t> ends, std::span<const Index> corners)
+      : of_corner(ends.size(), kNone) {
+    for (const Index corner : corners) {
+      if (of_corner[corner] == kNone) add(ways, ends, corner);
     }
     before.assign(firsts.size(), kNone);
     after.assign(firsts.size(), kNone);
-    for (Index corner = 0; corner < ends.size(); ++corner) {
+    for (const Index corner : corners) {
       if (ends[corner] != kParted) continue;
       const Index here = of_corner[corner], there = of_corner[ways.across(corner)];
       after[here] = there;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <ranges>
+#include <numeric>
 #include <utility>
 
 #include "codec/end_flags.h"
@@ -25,7 +25,7 @@ Parting codeParting(Port& port, Parting parting) {
 /// From parted ends to flags at edges.
 std::vector<uint8_t> edgesOf(const Connectivity& mesh, std::span<const uint8_t> ends) {
   std::vector<uint8_t> edges(ends.size());
-  for (size_t corner = 0; corner < ends.size(); ++corner) {
+  for (size_t corner = 0, count = ends.size(); corner < count; ++corner) {
     if (ends[corner] == kParted) edges[corner] = edges[mesh.twins[corner]] = 1;
   }
   return edges;
@@ -107,8 +107,8 @@ class LevelCoder {
     EndFlags<Port> flags(port_, ways_, ends_, truth);
     flags.code();
     // Umbrellas that are wholes of their own, and not parted, are their own parts: nothing is coded.
-    const bool all = whole_.of_corner.data() != ways_.mesh().umbrellas.data();
-    Runs runs(ways_, ends_, [&](Index umbrella) { return all || flags.isTouched(umbrella); });
+    const bool own = whole_.of_corner.data() == ways_.mesh().umbrellas.data();
+    Runs runs(ways_, ends_, own ? flags.corners() : allCorners());
     RunParts<Port> coder(port_, ways_.mesh(), runs, whole_.of_corner, whole_.count);
     std::vector<Index> base(Port::kWriting ? whole_.count : 0, kNone);
     for (const Index first : runs.firsts) {
@@ -124,6 +124,12 @@ class LevelCoder {
   }
 
  private:
+  std::vector<Index> allCorners() const {
+    std::vector<Index> corners(ends_.size());
+    std::iota(corners.begin(), corners.end(), Index{0});
+    return corners;
+  }
+
   // Turns numbers within wholes into parts. A whole without runs has one part.
   Level numbered(Runs&& runs, const RunParts<Port>& coder) {
     std::vector<Index> base(whole_.count);
@@ -132,10 +138,8 @@ class LevelCoder {
       base[w] = count;
       count += std::max(coder.used()[w], 1u);
     }
-    for (size_t c = 0; c < runs.of_corner.size(); ++c) {
-      Index& number = runs.of_corner[c];
-      number = base[whole_.of_corner[c]] + (number == kNone ? 0 : coder.parts()[number]);
-    }
+    const Index* whole = whole_.of_corner.data();
+    for (Index& number : runs.of_corner) number = base[*whole++] + (number == kNone ? 0 : coder.parts()[number]);
     return {std::move(runs.of_corner), count, std::move(ends_)};
   }
 
@@ -182,9 +186,11 @@ void decodeAttributeSeams(RangeReader& port, const UmbrellaWays& ways, std::span
 }  // namespace
 
 std::vector<Index> verticesOf(const Connectivity& mesh) {
-  if (mesh.vertices.empty()) return mesh.umbrellas;
-  const auto vertices = mesh.umbrellas | std::views::transform([&](Index umbrella) { return mesh.vertices[umbrella]; });
-  return {vertices.begin(), vertices.end()};
+  std::vector<Index> vertices = mesh.umbrellas;
+  if (!mesh.vertices.empty()) {
+    for (Index& umbrella : vertices) umbrella = mesh.vertices[umbrella];
+  }
+  return vertices;
 }
 
 Seams withoutSeams(const Connectivity& mesh, Index attribute_count) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "codec/diagonal_model.h"
 #include "codec/model.h"
 #include "codec/polygon_table.h"
 #include "codec/range_coder.h"
@@ -10,40 +11,6 @@
 
 namespace tutte {
 namespace {
-
-/// Guesses a quad's diagonal from the quads around it that are known: does theirs touch the shared edge's origin or
-/// its end? In a regular grid all diagonals are parallel, so those of neighbours touch opposite ends.
-class DiagonalModel {
- public:
-  explicit DiagonalModel(const Connectivity& mesh) : mesh_(mesh), touched_(mesh.twins.size(), kUnknown) {}
-
-  /// The lower of the two corners (0 or 1) that the diagonal of a quad joins. Flipping a quad does not change it.
-  template <class Port>
-  Index code(Port& port, Index first_corner, Index apex) {
-    std::array<int, 2> votes{};
-    for (Index i = 0; i < 4; ++i) count(first_corner, i, votes);
-    const int context = std::min(votes[0], 2) * 3 + std::min(votes[1], 2);
-    const bool diagonal = models_[context * 2 + last_wrong_].code(port, apex != 0);
-    last_wrong_ = diagonal != (votes[1] > votes[0]);
-    for (Index i = 0; i < 4; ++i) touched_[first_corner + i] = (i & 1) == diagonal;
-    return diagonal;
-  }
-
- private:
-  static constexpr uint8_t kUnknown = 2;
-
-  void count(Index first_corner, Index i, std::array<int, 2>& votes) const {
-    const Index twin = mesh_.twins[first_corner + i];
-    if (twin == kNone || touched_[twin] == kUnknown) return;
-    const bool touches_end = touched_[twin] != 0;
-    ++votes[(i & 1) ^ (touches_end ? 0 : 1)];
-  }
-
-  const Connectivity& mesh_;
-  std::vector<uint8_t> touched_;  ///< per corner: by a diagonal; kUnknown but in quads that were coded as fans
-  std::array<Bit, 18> models_;
-  bool last_wrong_ = false;
-};
 
 /// The symbols of the section, for both directions.
 template <class Port>
@@ -63,6 +30,12 @@ class TriangulationScript {
     }
   }
 
+  /// Nothing but its diagonal is coded.
+  bool isPlainQuad(const Polygon& polygon) const {
+    return polygon.exterior.degree == 4 && polygon.holes.empty() && !lists_;
+  }
+  Index quad(Index first_corner, Index apex) { return diagonals_.code(port_, first_corner, apex); }
+
   /// The number of triangles of a list; then each of them.
   Index listLength(Index value) { return length_.code(port_, value); }
   void listTriangle(Index corner_count, Triangle& t) {
@@ -80,7 +53,7 @@ class TriangulationScript {
 
   Index fan(const Ring& ring, Index apex) {
     if (ring.degree == 3) return 0;
-    if (ring.degree == 4) return diagonals_.code(port_, ring.first, apex);
+    if (ring.degree == 4) return quad(ring.first, apex);
     return elsewhere_.code(port_, apex != 0) ? 1 + port_.uniform(ring.degree - 1, apex - 1) : 0;
   }
 
@@ -168,22 +141,20 @@ size_t expectedCorners(size_t corners, size_t faces) { return 3 * (corners - std
 /// Appends triangles to the result.
 class Output {
  public:
-  /// `expected` corners.
-  Output(Triangulation& triangulation, size_t face_count, size_t expected) : triangulation_(triangulation) {
-    triangulation_.counts.resize(face_count);
-    triangulation_.corners.reserve(expected);
+  /// `expected` corners; there may be more or less.
+  Output(Triangulation& triangulation, size_t face_count, size_t expected)
+      : counts_(triangulation.counts), corners_(triangulation.corners) {
+    counts_.resize(face_count);
+    corners_.resize(expected);
   }
 
   void fan(Index face, const Ring& ring, Index apex) {
+    if (ring.degree < 3) return;
     const auto corner = [&](Index i) {
       const Index at = apex + i;
       return ring.first + (at < ring.degree ? at : at - ring.degree);
     };
-    if (ring.degree < 3) return;
-    const size_t begin = triangulation_.corners.size(), count = ring.degree - 2;
-    triangulation_.counts[face] = static_cast<Index>(count);
-    triangulation_.corners.resize(begin + 3 * count);
-    Index* out = &triangulation_.corners[begin];
+    Index* out = begin(face, ring.degree - 2);
     for (Index i = 1; i + 1 < ring.degree; ++i, out += 3) {
       out[0] = corner(0);
       out[1] = corner(i);
@@ -191,13 +162,23 @@ class Output {
     }
   }
 
-  void triangle(Index face, const Triangle& corners) {
-    triangulation_.corners.insert(triangulation_.corners.end(), corners.begin(), corners.end());
-    ++triangulation_.counts[face];
-  }
+  void triangle(Index face, const Triangle& corners) { std::ranges::copy(corners, begin(face, 1)); }
+
+  /// Afterwards.
+  void finish() { corners_.resize(used_); }
 
  private:
-  Triangulation& triangulation_;
+  // Where so many further triangles go.
+  Index* begin(Index face, Index count) {
+    const size_t at = used_;
+    used_ += size_t{3} * count;
+    counts_[face] += count;
+    if (used_ > corners_.size()) corners_.resize(std::max(used_, at * 3 / 2));
+    return corners_.data() + at;
+  }
+
+  std::vector<Index>&counts_, &corners_;
+  size_t used_ = 0;
 };
 
 /// Decodes polygon by polygon, never more than `max_triangles` in all.
@@ -213,6 +194,7 @@ class Decoder {
   }
 
   Error polygon(Index face, const Polygon& polygon) {
+    if (script_.isPlainQuad(polygon) && left_ >= 2) return quad(face, polygon.exterior.first);
     script_.polygon(polygon, shape_);
     if (shape_.kind == Kind::kList) return list(face, polygon);
     if (polygon.exterior.degree - 2 > left_) return Error::kLimitExceeded;
@@ -225,7 +207,16 @@ class Decoder {
     return port_.overrun() ? Error::kTruncated : Error::kNone;
   }
 
+  /// After the last one.
+  void finish() { output_.finish(); }
+
  private:
+  Error quad(Index face, Index first) {
+    output_.fan(face, {first, 4, 0}, script_.quad(first, 0));
+    left_ -= 2;
+    return port_.overrun() ? Error::kTruncated : Error::kNone;
+  }
+
   Error list(Index face, const Polygon& polygon) {
     const Index count = script_.listLength(0);
     if (count > left_) return Error::kLimitExceeded;
@@ -259,6 +250,7 @@ Triangulation fanTriangulation(PolygonView mesh, std::span<const Index> ring_own
     if (ring_owners.empty() || ring_owners[face] == kNone) output.fan(face, {first, degree, 0}, 0);
     first += degree;
   }
+  output.finish();
   return result;
 }
 
@@ -303,6 +295,7 @@ Result<Triangulation> decodeTriangulation(const Connectivity& mesh, std::span<co
     if (const Error error = decoder.polygon(face, polygon); error != Error::kNone) return error;
   }
   if (port.trailing()) return Error::kTrailingBytes;
+  decoder.finish();
   return result;
 }
 

@@ -75,29 +75,18 @@ void ValueGraph::cutLargeFaces(std::span<const Index> face_degrees) {
 // At edges whose sides have different sites.
 template <class Faces>
 void ValueGraph::cutSeams(const Faces& faces) {
-  for (Index c = 0; c < cornerCount(); ++c) {
-    const Index twin = twins_[c];
+  const Index* const sites = sites_.data();
+  const Index* twins = twins_.data();
+  for (Index c = 0, count = cornerCount(); c < count; ++c) {
+    const Index twin = twins[c];
     if (twin == kNone || twin < c) continue;
-    if (site(twin) != site(faces.next(c)) || site(faces.next(twin)) != site(c)) cut(c);
+    if (sites[twin] == sites[faces.next(c)] && sites[faces.next(twin)] == sites[c]) continue;
+    cut(c);
+    twins = twins_.data();
   }
 }
 
-// The last one first, so that each is put before those of its site that are known.
-void ValueGraph::listFans(const Connectivity& mesh, Index counted) {
-  std::vector<Index> closed(mesh.umbrella_count, kNone);
-  for (Index c = counted; c-- > 0;) closed[mesh.umbrellas[c]] = c;
-  for (Index c = 0; c < counted; ++c) {
-    if (twins_[c] == kNone) closed[mesh.umbrellas[c]] = kNone;
-  }
-  for (size_t umbrella = closed.size(); umbrella-- > 0;) {
-    if (closed[umbrella] != kNone) addFan(closed[umbrella]);
-  }
-  for (Index c = counted; c-- > 0;) {
-    if (twins_[c] == kNone) addFan(c);
-  }
-}
-
-void ValueGraph::addFan(Index first) {
+inline void ValueGraph::addFan(Index first) {
   Index& fans = starts_[sites_[first]];
   if (fans == kNone) {
     fans = first;
@@ -105,6 +94,25 @@ void ValueGraph::addFan(Index first) {
   }
   fans_.push_back({first, fans});
   fans = kSeveral + static_cast<Index>(fans_.size() - 1);
+}
+
+// The last one first, so that each is put before those of its site that are known.
+void ValueGraph::listFans(const Connectivity& mesh, Index counted) {
+  const Index* const umbrellas = mesh.umbrellas.data();
+  std::vector<Index> closed(mesh.umbrella_count, kNone);
+  bool open = false;
+  for (Index c = counted; c-- > 0;) closed[umbrellas[c]] = c;
+  for (Index c = 0; c < counted; ++c) {
+    if (twins_[c] != kNone) continue;
+    closed[umbrellas[c]] = kNone;
+    open = true;
+  }
+  for (size_t umbrella = closed.size(); umbrella-- > 0;) {
+    if (closed[umbrella] != kNone) addFan(closed[umbrella]);
+  }
+  for (Index c = counted; open && c-- > 0;) {
+    if (twins_[c] == kNone) addFan(c);
+  }
 }
 
 ValueGraph::CornerList ValueGraph::corners(Index site) const {
@@ -119,18 +127,16 @@ ValueGraph::CornerList ValueGraph::corners(Index site) const {
 WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
                       std::span<const uint8_t> seams) {
   std::optional<Partition> partition;
-  const auto join = [&](Index a, Index b) {
-    if (!partition) partition.emplace(wedge_count);
-    partition->join(a, b);
-  };
+  const Index* const twins = mesh.twins.data();
   Index begin = 0;
   for (const Index degree : mesh.face_degrees) {
     const Index end = begin + degree;
     for (Index c = begin; c < end; ++c) {
-      const Index twin = mesh.twins[c];
-      if (twin == kNone || (!seams.empty() && seams[c] != 0)) continue;
-      const Index wedge = wedges[c + 1 == end ? begin : c + 1];
-      if (wedge != wedges[twin]) join(wedge, wedges[twin]);
+      if (twins[c] == kNone) continue;
+      const Index behind = wedges[c + 1 == end ? begin : c + 1], beyond = wedges[twins[c]];
+      if (behind == beyond || (!seams.empty() && seams[c] != 0)) continue;
+      if (!partition) partition.emplace(wedge_count);
+      partition->join(behind, beyond);
     }
     begin = end;
   }

@@ -92,7 +92,7 @@ class Ends:
 class FlagPass:
     def __init__(self, ends, candidates, given=frozenset()):
         self.ends, self.candidates, self.history = ends, candidates, 0
-        self.quiet, self.touches, self.flags = [Chance(4096) for _ in range(9)], MixedFlag(3, 1), MixedFlag(6, 3)
+        self.quiet, self.touches, self.flags = [Chance(4096) for _ in range(2)], MixedFlag(3, 1), MixedFlag(6, 3)
         self.known = {end: 2 for end in given}
         self.left, self.parted, self.required, self.states = {}, {}, {}, {}
         for c, u in enumerate(ends.umbrellas):
@@ -125,8 +125,8 @@ class FlagPass:
                 p, n, o = self.state(preceding[c]), self.state(following[c]), self.state(following[following[c]])
                 left, r = twins[preceding[c]], self.state(preceding[twins[c]])
                 l = 3 if left is None else self.state(following[following[left]])
-                if row == 0 and p != 2 and n != 2:
-                    touched = self.quiet[p * 3 + n].read(stream)
+                if row == 0 and n != 2:
+                    touched = self.quiet[n].read(stream)
                 else:
                     touched = self.touches.read(stream, [(((p * 3 + n) * 3 + o) * 4 + l) * 4 + r, (row * 3 + n) * 3 + o,
                                                          ((p * 3 + n) * 2 + (l == 3)) * 16 + (row & 15)], 0)
