@@ -104,10 +104,11 @@ class Search {
   }
 
   // In bits. Newest first walks in strips, where values have fewer neighbours that are known: on average they take an
-  // eighth of a bit more.
+  // eighth of a bit more. A dual must be turned when it is decoded; where speed counts most, it has to save something.
   size_t priceOf(const WalkedCandidate& walked) const {
     const bool strips = options_.values_follow && walked.header.tie == TieRule::kNewestFirst;
-    return walked.bits() + (strips ? topologies_.primal().valence.size() / 8 : 0);
+    const bool turned = walked.header.dual && profile_ == Profile::kFast;
+    return walked.bits() + (strips ? topologies_.primal().valence.size() / 8 : 0) + (turned ? walked.bits() / 32 : 0);
   }
 
   // Keeps the candidate if it is smaller.
