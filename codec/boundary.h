@@ -14,7 +14,7 @@
 
 namespace tutte {
 
-/// The moves of the walk that know no symbols. For `Script` see Walk.
+/// The moves of the walk that know no symbols. For `Script` see codec/questions.h.
 template <class Script>
 class Boundary {
  public:

@@ -1,5 +1,22 @@
 #pragma once
 // What the walk asks, and what it is told.
+//
+// A *Script* answers them: it offers
+//   static constexpr Index kDegree         all faces' degree, when none is a dummy; 0: faces are asked for theirs
+//   bool component()                       is there another component?
+//   Index original() const                 the number of the one that it repeats, or kNone
+//   FaceAnswer face(const FaceQuestion&)
+//   VertexAnswer vertex(const VertexQuestion&)
+//   SplitAnswer split(const VertexQuestion&, const Gaps&)
+//   static constexpr bool kGathers         do its answers depend on what Gap gathers of the surroundings?
+//   static constexpr bool kSums            ... on sums of valences?
+//   bool faulty()                          must the walk stop? To be asked now and then
+//   Error fault()                          why
+// and follows, where it stands on an input mesh, the position of the walk:
+//   void seed()                  before the first face of a component
+//   void start(const Gap& gap)   at the far end of the edge that leaves the gap, in the face outside
+//   void step()                  on to the next corner of the face
+//   void cross(const Gap& gap)   the gap's leaving edge becomes the edge from the next corner back to this one
 
 #include <array>
 #include <cstdint>

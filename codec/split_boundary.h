@@ -12,7 +12,7 @@
 
 namespace tutte {
 
-/// The moves of the walk at vertices that the region has already. For `Script` see Walk.
+/// The moves of the walk at vertices that the region has already. For `Script` see codec/questions.h.
 template <class Script>
 class SplitBoundary : public Boundary<Script> {
  public:
