@@ -19,7 +19,7 @@ class MixingCoder {
  public:
   static constexpr bool wantsAll() { return true; }
 
-  MixingCoder() : lines_(kStarts[kInputs]) {
+  MixingCoder() : places_(kStarts[kInputs]), lines_(1) {
     Weights<kInputs> initial;
     initial.weight.fill(kInitialWeight);
     weights_.fill(initial);
@@ -65,6 +65,25 @@ class MixingCoder {
 
   using Line = std::array<Slot, kBins>;
 
+  // Of all contexts that there are, a mesh meets few: a line is made when its context is first met.
+  std::array<Line*, kInputs> linesAt(const std::array<uint32_t, kInputs>& contexts) {
+    std::array<uint16_t, kInputs> places;
+    for (size_t i = 0; i < kInputs; ++i) {
+      uint16_t& place = places_[kStarts[i] + contexts[i]];
+      if (place == 0) place = addLine();
+      places[i] = place;
+    }
+    std::array<Line*, kInputs> lines;
+    for (size_t i = 0; i < kInputs; ++i) lines[i] = &lines_[places[i]];
+    return lines;
+  }
+
+  [[gnu::noinline]] uint16_t addLine() {
+    static_assert(kStarts[kInputs] < 65536);
+    lines_.emplace_back();
+    return static_cast<uint16_t>(lines_.size() - 1);
+  }
+
   std::array<Line*, kInputs> linesOf(const Expectation& about, int expected) {
     const int level = about.level();
     const auto rank = static_cast<uint32_t>(about.rank), e = static_cast<uint32_t>(expected);
@@ -77,9 +96,7 @@ class MixingCoder {
         (about.relative(about.apart, level, -7, 8) * 3 + rank) * kLengths + e,
         (about.fraction * 4 + about.members) * kLengths + e,
         (last_[rank] * 3 + rank) * kLengths + e};
-    std::array<Line*, kInputs> lines;
-    for (size_t i = 0; i < kInputs; ++i) lines[i] = &lines_[kStarts[i] + contexts[i]];
-    return lines;
+    return linesAt(contexts);
   }
 
   template <class Port>
@@ -135,7 +152,8 @@ class MixingCoder {
     return value << rest | port.bits(rest, magnitude & ((1u << rest) - 1));
   }
 
-  std::vector<Line> lines_;
+  std::vector<uint16_t> places_;  // by context: its line; 0: none yet
+  std::vector<Line> lines_;       // the first one is nobody's
   std::array<Weights<kInputs>, 3 * kBins> weights_;
   LearningRate rate_;
   std::array<uint32_t, 3> last_{};  // lengths, by rank
