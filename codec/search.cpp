@@ -49,7 +49,7 @@ class Search {
   // How often a mesh is walked at most, besides the first time.
   static size_t trialsFor(int effort, size_t corners) {
     constexpr size_t kCorners[] = {0, 400'000, 4'000'000, 80'000'000};
-    constexpr size_t kMost[] = {0, 16, 200, 2000};
+    constexpr size_t kMost[] = {0, 12, 200, 2000};
     effort = std::clamp(effort, 0, 3);
     return std::min(kMost[effort], kCorners[effort] / corners);
   }
