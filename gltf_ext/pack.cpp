@@ -177,10 +177,8 @@ class Packer {
       owner = coded_of_input[owner];
       any = true;
     }
-    if (any)
-      parts_.set(Section::kRings, encodeRings(owners_));
-    else
-      owners_.clear();
+    if (!any) owners_.clear();
+    if (any) parts_.set(Section::kRings, encodeRings(owners_));
     return Done{};
   }
 
@@ -253,18 +251,27 @@ class Packer {
   Packed packed_;
 };
 
+Outcome<Packed> packOver(const PolygonMesh& mesh, const Polygons& polygons, const PackOptions& options) {
+  Packer packer(mesh, polygons, options);
+  if (Outcome<Done> done = packer.begin(); !done) return done.error();
+  return packer.finish();
+}
+
 /// What a position costs at least when neighbours in other faces do not tell it, in half bytes.
 constexpr uint64_t kHalfBytesPerVertex = 3;
 
-/// Small meshes are coded both ways. In others, what positions take is guessed.
+/// Small meshes are coded both ways. In others, what positions take is guessed, from walks without a search.
 Outcome<Packed> smallerOf(const PolygonMesh& mesh, const Polygons& welded_polygons, const PackOptions& options) {
-  Packer apart(mesh, mesh.polygons, options), welded(mesh, welded_polygons, options);
+  const bool guess = mesh.wedge_count > 1000 && options.connectivity.effort < 2;
+  PackOptions first = options;
+  if (guess) first.connectivity.effort = 0;
+  Packer apart(mesh, mesh.polygons, first), welded(mesh, welded_polygons, first);
   for (Packer* packer : {&apart, &welded}) {
     if (Outcome<Done> done = packer->begin(); !done) return done.error();
   }
-  if (mesh.wedge_count > 5000 && options.connectivity.effort < 2) {
+  if (guess) {
     const uint64_t saved = kHalfBytesPerVertex * (mesh.polygons.vertex_count - welded_polygons.vertex_count) / 2;
-    return welded.bytesSoFar() < apart.bytesSoFar() + saved ? welded.finish() : apart.finish();
+    return packOver(mesh, welded.bytesSoFar() < apart.bytesSoFar() + saved ? welded_polygons : mesh.polygons, options);
   }
   Outcome<Packed> a = apart.finish(), b = welded.finish();
   if (!a || !b) return a;
@@ -285,9 +292,7 @@ Outcome<Packed> pack(const PolygonMesh& mesh, const PackOptions& options) {
   if (Outcome<Done> valid = checkMesh(mesh); !valid) return valid.error();
   const std::optional<Polygons> welded = options.weld != false ? weldedPolygons(mesh) : std::nullopt;
   if (welded && !options.weld) return smallerOf(mesh, *welded, options);
-  Packer packer(mesh, welded ? *welded : mesh.polygons, options);
-  if (Outcome<Done> done = packer.begin(); !done) return done.error();
-  return packer.finish();
+  return packOver(mesh, welded ? *welded : mesh.polygons, options);
 }
 
 }  // namespace tutte
