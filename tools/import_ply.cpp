@@ -1,6 +1,5 @@
 // PLY, read here because Assimp takes a triangle strip for one large face, and cannot tell where a file is wrong.
 
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,44 +9,11 @@
 #include "tools/indexed_mesh.h"
 #include "tools/ply_header.h"
 #include "tools/ply_values.h"
+#include "tools/ply_vertices.h"
 #include "tools/values.h"
 
 namespace tutte {
 namespace {
-
-/// What a vertex property is for us: an attribute and which of its components.
-struct Target {
-  const char* attribute = nullptr;
-  uint8_t component = 0;
-};
-
-Target targetOf(const std::string& name) {
-  static const std::map<std::string, Target> targets = {{"x", {"POSITION", 0}},
-                                                        {"y", {"POSITION", 1}},
-                                                        {"z", {"POSITION", 2}},
-                                                        {"nx", {"NORMAL", 0}},
-                                                        {"ny", {"NORMAL", 1}},
-                                                        {"nz", {"NORMAL", 2}},
-                                                        {"s", {"TEXCOORD_0", 0}},
-                                                        {"t", {"TEXCOORD_0", 1}},
-                                                        {"u", {"TEXCOORD_0", 0}},
-                                                        {"v", {"TEXCOORD_0", 1}},
-                                                        {"texture_u", {"TEXCOORD_0", 0}},
-                                                        {"texture_v", {"TEXCOORD_0", 1}},
-                                                        {"red", {"COLOR_0", 0}},
-                                                        {"green", {"COLOR_0", 1}},
-                                                        {"blue", {"COLOR_0", 2}},
-                                                        {"alpha", {"COLOR_0", 3}},
-                                                        {"r", {"COLOR_0", 0}},
-                                                        {"g", {"COLOR_0", 1}},
-                                                        {"b", {"COLOR_0", 2}},
-                                                        {"a", {"COLOR_0", 3}},
-                                                        {"diffuse_red", {"COLOR_0", 0}},
-                                                        {"diffuse_green", {"COLOR_0", 1}},
-                                                        {"diffuse_blue", {"COLOR_0", 2}}};
-  const auto found = targets.find(name);
-  return found == targets.end() ? Target{} : found->second;
-}
 
 class PlyReader {
  public:
@@ -86,20 +52,20 @@ class PlyReader {
   }
 
   void readVertices(const PlyElement& element) {
-    if (!columns_.empty() || element.count >= kNone) {
+    if (!vertices_.columns.empty() || element.count >= kNone) {
       fail(element, 0, "there is a second list of vertices, or too many of them; split the file");
       return;
     }
-    columns_.resize(element.properties.size());
-    for (auto& column : columns_) column.reserve(element.count);
-    vertex_properties_ = element.properties;
+    vertices_.properties = element.properties;
+    vertices_.columns.resize(element.properties.size());
+    for (auto& column : vertices_.columns) column.reserve(element.count);
     for (uint64_t vertex = 0; vertex < element.count && !failure_; ++vertex) {
       for (size_t i = 0; i < element.properties.size() && !failure_; ++i) {
         const PlyProperty& property = element.properties[i];
         if (property.is_list)
           readList(element, vertex, property);
         else
-          columns_[i].push_back(static_cast<float>(value(element, vertex, property.type)));
+          vertices_.columns[i].push_back(static_cast<float>(value(element, vertex, property.type)));
       }
     }
     mesh_.vertex_count = static_cast<Index>(element.count);
@@ -199,7 +165,7 @@ class PlyReader {
                   "it names vertex " + std::to_string(mesh_.corners[i]) + ", but there are only " +
                       std::to_string(mesh_.vertex_count) + "; correct the index");
     }
-    addVertexAttributes();
+    addVertexAttributes(vertices_, mesh_, warnings_);
     if (!texcoords_.empty()) addCornerTexcoords();
     Imported result;
     result.warnings = std::move(warnings_);
@@ -207,59 +173,6 @@ class PlyReader {
     mesh.mesh = buildMesh(std::move(mesh_), result.warnings);
     result.scene.meshes.push_back(std::move(mesh));
     return result;
-  }
-
-  void addVertexAttributes() {
-    addAttribute("POSITION", 3, 3);
-    addAttribute("NORMAL", 3, 3);
-    addAttribute("TEXCOORD_0", 2, 2);
-    addAttribute("COLOR_0", 3, 4);
-    for (size_t i = 0; i < columns_.size(); ++i) {
-      const PlyProperty& property = vertex_properties_[i];
-      if (targetOf(property.name).attribute) continue;
-      if (property.is_list) {
-        warnings_.push_back("list '" + property.name + "' of vertices is not carried over");
-      } else {
-        mesh_.vertex_attributes.push_back(floatAttribute(customName(property.name), 1, columns_[i]));
-      }
-    }
-  }
-
-  static std::string customName(const std::string& name) {
-    std::string result = "_";
-    for (char c : name)
-      result += static_cast<char>(std::isalnum(static_cast<unsigned char>(c)) ? std::toupper(c) : '_');
-    return result;
-  }
-
-  /// The attribute, if the file has at least its first `least` components. Byte colours stay bytes, and opaque.
-  void addAttribute(const char* name, uint8_t least, uint8_t most) {
-    std::vector<const std::vector<float>*> columns(most);
-    bool bytes = true;
-    for (size_t i = 0; i < columns_.size(); ++i) {
-      const Target target = targetOf(vertex_properties_[i].name);
-      if (!target.attribute || target.attribute != std::string_view(name) || vertex_properties_[i].is_list) continue;
-      columns[target.component] = &columns_[i];
-      bytes = bytes && vertex_properties_[i].type == PlyType::kUint8;
-    }
-    uint8_t components = 0;
-    while (components < most && columns[components]) ++components;
-    const bool position = name == std::string_view("POSITION");
-    if (components < least && !position) return;
-    const bool byte_colors = bytes && name == std::string_view("COLOR_0");
-    if (byte_colors) components = 4;
-    if (position) components = 3;
-    std::vector<float> values;
-    for (size_t vertex = 0; vertex < mesh_.vertex_count; ++vertex) {
-      for (int i = 0; i < components; ++i) {
-        const float absent = i == 3 ? 255.0f : 0.0f;
-        const float given = columns[i] ? (*columns[i])[vertex] : absent;
-        values.push_back(name == std::string_view("TEXCOORD_0") && i == 1 ? 1 - given : given);
-      }
-    }
-    mesh_.vertex_attributes.push_back(byte_colors
-                                          ? byteAttribute(name, 4, std::vector<uint8_t>(values.begin(), values.end()))
-                                          : floatAttribute(name, components, values));
   }
 
   /// Equal pairs get one number. Faces whose list has not as many pairs as the face has corners get none.
@@ -289,8 +202,7 @@ class PlyReader {
   std::optional<Failure> failure_;
   std::vector<std::string> warnings_;
   IndexedMesh mesh_;
-  std::vector<PlyProperty> vertex_properties_;
-  std::vector<std::vector<float>> columns_;
+  PlyVertices vertices_;
   std::vector<double> list_;
   std::vector<std::pair<const PlyElement*, uint64_t>> origins_;  // per corner, for messages
   std::vector<float> texcoords_;
