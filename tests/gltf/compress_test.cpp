@@ -4,95 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "gltf_ext/accessors.h"
-#include "gltf_ext/decompress.h"
 #include "gltf_ext/extension.h"
 #include "gltf_ext/polygons.h"
 #include "tests/gltf/assets.h"
+#include "tests/gltf/compress_trip.h"
 
 namespace tutte {
 namespace {
-
-Json& primitiveOf(Asset& asset, size_t mesh = 0, size_t primitive = 0) {
-  return asset.json["meshes"][mesh]["primitives"][primitive];
-}
-
-/// Compresses without loss, checks the result and its way through GLB, and that the same scene comes back.
-Asset roundTrip(const Asset& asset, CompressOptions options = lossless(), size_t payloads = 1) {
-  auto compressed = compress(asset, options);
-  EXPECT_TRUE(compressed) << why(compressed);
-  if (!compressed) return emptyAsset();
-  EXPECT_EQ(compressed->report.payloads.size(), payloads);
-  for (const Failure& failure : validate(compressed->asset)) ADD_FAILURE() << failure.where << ": " << failure.what;
-  const auto glb = toGlb(compressed->asset);
-  EXPECT_TRUE(glb) << why(glb);
-  const auto loaded = parseAsset(*glb);
-  EXPECT_TRUE(loaded) << why(loaded);
-  const auto plain = decompress(*loaded);
-  EXPECT_TRUE(plain) << why(plain);
-  expectSameScene(asset, *loaded);
-  expectSameScene(asset, *plain);
-  return std::move(compressed->asset);
-}
-
-TEST(Compress, TrianglesOfAllShapes) {
-  for (const auto& [name, shape] : shapes::allShapes()) {
-    SCOPED_TRACE(name);
-    const Asset asset = triangleAsset(shape);
-    if (fanIndices(shape.mesh).empty() || shape.mesh.vertex_count > 60000) continue;
-    roundTrip(asset);
-  }
-}
-
-TEST(Compress, FansOfAllShapes) {
-  for (const auto& [name, shape] : shapes::allShapes()) {
-    SCOPED_TRACE(name);
-    if (fanIndices(shape.mesh).empty() || shape.mesh.vertex_count > 60000) continue;
-    roundTrip(fanAsset(shape));
-  }
-}
-
-TEST(Compress, PolygonsOfAllShapes) {
-  for (const auto& [name, shape] : shapes::allShapes()) {
-    SCOPED_TRACE(name);
-    if (fanIndices(shape.mesh).empty() || shape.mesh.vertex_count > 60000) continue;
-    CompressOptions options = lossless();
-    options.polygons = PolygonOutput::kBoth;
-    roundTrip(polygonAsset(shape), options);
-  }
-}
-
-TEST(Compress, PolygonsWithHoles) {
-  Asset compressed = roundTrip(holeAsset());
-  EXPECT_EQ(primitiveOf(compressed)["extensions"]["EXT_mesh_polygon"]["count"], 2);
-  CompressOptions options = lossless();
-  options.polygons = PolygonOutput::kFb;
-  compressed = roundTrip(holeAsset(), options);
-  EXPECT_FALSE(extensionOf(primitiveOf(compressed), "FB_ngon_encoding")) << "holes cannot be fans";
-  EXPECT_TRUE(extensionOf(primitiveOf(compressed), "EXT_mesh_polygon"));
-}
-
-TEST(Compress, PolygonNotationIsChosen) {
-  CompressOptions options = lossless();
-  options.polygons = PolygonOutput::kExt;
-  Asset compressed = roundTrip(fanAsset(shapes::dodecahedron()), options);
-  EXPECT_FALSE(extensionOf(primitiveOf(compressed), "FB_ngon_encoding"));
-  EXPECT_TRUE(extensionOf(primitiveOf(compressed), "EXT_mesh_polygon"));
-  EXPECT_FALSE(listsExtension(compressed.json, "extensionsUsed", "FB_ngon_encoding"));
-  options.polygons = PolygonOutput::kFb;
-  compressed = roundTrip(polygonAsset(shapes::cube()), options);
-  EXPECT_TRUE(extensionOf(primitiveOf(compressed), "FB_ngon_encoding"));
-  EXPECT_FALSE(listsExtension(compressed.json, "extensionsUsed", "EXT_mesh_polygon"));
-}
-
-TEST(Compress, UnmarkedFansGetTheirMark) {
-  Asset asset = fanAsset(shapes::cube());
-  primitiveOf(asset).erase("extensions");
-  Asset compressed = roundTrip(asset);
-  EXPECT_TRUE(extensionOf(primitiveOf(compressed), "FB_ngon_encoding"));
-}
 
 TEST(Compress, SharedVerticesBecomeOnePayload) {
   Asset asset = triangleAsset(shapes::quadGrid(6, 6));
