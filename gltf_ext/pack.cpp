@@ -257,8 +257,8 @@ Outcome<Packed> packOver(const PolygonMesh& mesh, const Polygons& polygons, cons
   return packer.finish();
 }
 
-/// What a position costs at least when neighbours in other faces do not tell it, in half bytes.
-constexpr uint64_t kHalfBytesPerVertex = 3;
+/// What a position costs at least when neighbours in other faces do not tell it, in bytes.
+constexpr uint64_t kBytesPerVertex = 1;
 
 /// Small meshes are coded both ways. In others, what positions take is guessed, from walks without a search.
 Outcome<Packed> smallerOf(const PolygonMesh& mesh, const Polygons& welded_polygons, const PackOptions& options) {
@@ -270,7 +270,7 @@ Outcome<Packed> smallerOf(const PolygonMesh& mesh, const Polygons& welded_polygo
     if (Outcome<Done> done = packer->begin(); !done) return done.error();
   }
   if (guess) {
-    const uint64_t saved = kHalfBytesPerVertex * (mesh.polygons.vertex_count - welded_polygons.vertex_count) / 2;
+    const uint64_t saved = kBytesPerVertex * (mesh.polygons.vertex_count - welded_polygons.vertex_count);
     return packOver(mesh, welded.bytesSoFar() < apart.bytesSoFar() + saved ? welded_polygons : mesh.polygons, options);
   }
   Outcome<Packed> a = apart.finish(), b = welded.finish();
