@@ -7,6 +7,7 @@
 
 #include "codec/mesh.h"
 #include "codec/questions.h"
+#include "codec/sure_run.h"
 
 namespace tutte {
 
@@ -17,24 +18,20 @@ class PlainFaces {
   /// Is it as good as certain that this face is plain? `expected`: the degree that it then has.
   [[gnu::always_inline]] bool isSure(const FaceQuestion& question, Index expected, bool may_be_dummy) {
     run_ = &runs_[contextOf(question, expected, may_be_dummy)];
-    return *run_ >= kSure;
+    return run_->isSure();
   }
 
   /// Codes the flag, where isSure() said so.
   template <class Port>
   [[gnu::always_inline]] bool code(Port& port, bool plain) {
-    const bool bit = port.code(65536 - 65536 / (*run_ + 2u), plain);
-    note(bit);
-    return bit;
+    return run_->code(port, plain);
   }
 
   /// To be told of every other face, after isSure().
-  [[gnu::always_inline]] void note(bool plain) {
-    *run_ = static_cast<uint16_t>(plain ? std::min(*run_ + 1, kMost) : *run_ / 4);
-  }
+  void note(bool plain) { run_->note(plain); }
 
  private:
-  static constexpr int kSure = 127, kMost = 16383;
+  using Run = SureRun<127, 4>;
 
   // How many edges are known, and how many of the neighbours beside them are plain.
   static size_t contextOf(const FaceQuestion& question, Index expected, bool may_be_dummy) {
@@ -45,8 +42,8 @@ class PlainFaces {
     return size_t{question.known_edges > 1} << 3 | plain << 1 | size_t{may_be_dummy};
   }
 
-  std::array<uint16_t, 16> runs_{};
-  uint16_t* run_ = nullptr;
+  std::array<Run, 16> runs_;
+  Run* run_ = nullptr;
 };
 
 }  // namespace tutte

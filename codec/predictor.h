@@ -15,6 +15,7 @@
 #include "codec/borrowed.h"
 #include "codec/mesh.h"
 #include "codec/mixer.h"
+#include "codec/sure_run.h"
 
 namespace tutte {
 
@@ -49,7 +50,8 @@ class TableMemory {
   }
   bool logs() const { return left_ > 0; }
 
-  std::vector<uint16_t> runs;
+  using Run = SureRun<1023, 8>;
+  std::vector<Run> runs;
 
  private:
   std::vector<Line> lines_;
@@ -72,14 +74,13 @@ class Predictor {
   static constexpr int kInputs = kContexts < 8 ? 8 : 16;
   static constexpr int kSituations = 512;
   static constexpr int kMatchLengths = 8;
-  static constexpr int kSure = 1023, kMostRun = 16383;
   static_assert(kContexts < 16);
 
   /// Tables of 2^table_bits lines, as new.
   Predictor(int table_bits, TableMemory& memory)
       : shift_(64 - table_bits), table_lines_(size_t{1} << table_bits), memory_(memory) {
     lines_ = memory_->clear(table_lines_ * kContexts);
-    if (kMixes) memory_->runs.assign(table_lines_, 0);
+    if (kMixes) memory_->runs.assign(table_lines_, {});
     runs_ = memory_->runs.data();
     weights_.by_node.fill(kInitial);
     if constexpr (kRich) {
@@ -93,21 +94,19 @@ class Predictor {
   [[gnu::always_inline]] bool isSure(uint64_t key) {
     if constexpr (!kMixes) return false;
     run_ = &runs_[key * 0x9E3779B97F4A7C15u >> shift_];
-    return *run_ >= kSure;
+    return run_->isSure();
   }
 
   /// Codes a first decision of which isSure() said so.
   template <class Port>
   [[gnu::always_inline]] bool codeSure(Port& port, bool value) {
-    const bool bit = port.code(65536 - 65536 / (*run_ + 2u), value);
-    noteFirst(bit);
-    return bit;
+    return run_->code(port, value);
   }
 
   /// To be told every other first decision, after isSure().
   [[gnu::always_inline]] void noteFirst(bool bit) {
     if constexpr (!kMixes) return;
-    *run_ = static_cast<uint16_t>(bit ? std::min(*run_ + 1, kMostRun) : *run_ / 8);
+    run_->note(bit);
   }
 
   /// Selects the lines for a symbol.
@@ -235,8 +234,8 @@ class Predictor {
   Borrowed<TableMemory> memory_;
   Line* lines_ = nullptr;
   std::array<Line*, kContexts> line_{};
-  uint16_t* runs_ = nullptr;  // by key: how often in a row the first decision was a yes
-  uint16_t* run_ = nullptr;
+  TableMemory::Run* runs_ = nullptr;  // by key: how often in a row the first decision was a yes
+  TableMemory::Run* run_ = nullptr;
   std::conditional_t<kRich, RichWeights, PlainWeights> weights_;
   LearningRate rate_;
   [[no_unique_address]] std::conditional_t<kRich, FinalMap<kNodes>, NoMap> final_;

@@ -257,21 +257,20 @@ Outcome<Packed> packOver(const PolygonMesh& mesh, const Polygons& polygons, cons
   return packer.finish();
 }
 
-/// What a position costs at least when neighbours in other faces do not tell it, in bytes.
-constexpr uint64_t kBytesPerVertex = 1;
-
 /// Small meshes are coded both ways. In others, what positions take is guessed, from walks without a search.
 Outcome<Packed> smallerOf(const PolygonMesh& mesh, const Polygons& welded_polygons, const PackOptions& options) {
   const bool guess = mesh.wedge_count > 1000 && options.connectivity.effort < 2;
   PackOptions first = options;
-  if (guess) first.connectivity.effort = 0;
+  first.connectivity.effort = guess ? 0 : options.connectivity.effort;
   Packer apart(mesh, mesh.polygons, first), welded(mesh, welded_polygons, first);
   for (Packer* packer : {&apart, &welded}) {
     if (Outcome<Done> done = packer->begin(); !done) return done.error();
   }
   if (guess) {
-    const uint64_t saved = kBytesPerVertex * (mesh.polygons.vertex_count - welded_polygons.vertex_count);
-    return packOver(mesh, welded.bytesSoFar() < apart.bytesSoFar() + saved ? welded_polygons : mesh.polygons, options);
+    const uint64_t saved = mesh.polygons.vertex_count - welded_polygons.vertex_count;  // a position is a byte or more
+    const bool join = welded.bytesSoFar() < apart.bytesSoFar() + saved;
+    if (options.connectivity.effort == 0) return (join ? welded : apart).finish();
+    return packOver(mesh, join ? welded_polygons : mesh.polygons, options);
   }
   Outcome<Packed> a = apart.finish(), b = welded.finish();
   if (!a || !b) return a;
