@@ -69,7 +69,7 @@ struct alignas(16) Weights {
   }
 };
 
-/// The learning rate of a stream's weights: high at first, falling with the number of decisions.
+/// The learning rate of a stream's weights: high at first, falling with the number of decisions that they learn from.
 class LearningRate {
  public:
   /// Must be called once per decision.

@@ -18,7 +18,7 @@ class PlainFaces {
   /// Is it as good as certain that this face is plain? `expected`: the degree that it then has.
   [[gnu::always_inline]] bool isSure(const FaceQuestion& question, Index expected, bool may_be_dummy) {
     run_ = &runs_[contextOf(question, expected, may_be_dummy)];
-    return run_->isSure();
+    return run_->isSure(kSure);
   }
 
   /// Codes the flag, where isSure() said so.
@@ -31,7 +31,8 @@ class PlainFaces {
   void note(bool plain) { run_->note(plain); }
 
  private:
-  using Run = SureRun<127, 4>;
+  using Run = SureRun<4>;
+  static constexpr int kSure = 63;
 
   // How many edges are known, and how many of the neighbours beside them are plain.
   static size_t contextOf(const FaceQuestion& question, Index expected, bool may_be_dummy) {

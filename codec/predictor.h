@@ -50,7 +50,7 @@ class TableMemory {
   }
   bool logs() const { return left_ > 0; }
 
-  using Run = SureRun<1023, 8>;
+  using Run = SureRun<8>;
   std::vector<Run> runs;
 
  private:
@@ -74,6 +74,7 @@ class Predictor {
   static constexpr int kInputs = kContexts < 8 ? 8 : 16;
   static constexpr int kSituations = 512;
   static constexpr int kMatchLengths = 8;
+  static constexpr int kSure = kRich ? 31 : 15;
   static_assert(kContexts < 16);
 
   /// Tables of 2^table_bits lines, as new.
@@ -94,7 +95,7 @@ class Predictor {
   [[gnu::always_inline]] bool isSure(uint64_t key) {
     if constexpr (!kMixes) return false;
     run_ = &runs_[key * 0x9E3779B97F4A7C15u >> shift_];
-    return run_->isSure();
+    return run_->isSure(kSure);
   }
 
   /// Codes a first decision of which isSure() said so.
@@ -147,7 +148,8 @@ class Predictor {
   [[gnu::always_inline]] bool mixed(Port& port, Selectors selectors, Slot* match, int match_length, bool value) {
     constexpr int kUsed = kContexts + kMatched;
     const auto inputs = inputsOf<kUsed>(selectors.node, match, std::make_index_sequence<kInputs / 8>());
-    const bool bit = decide(port, selectors, inputs, match_length, value);
+    const auto [bit, learns] = decide(port, selectors, inputs, match_length, value);
+    if (!learns) return bit;
     update<0, kUsed>(selectors.node, match, bit, std::make_index_sequence<8>());
     if constexpr (kUsed > 8) update<8, kUsed>(selectors.node, match, bit, std::make_index_sequence<8>());
     return bit;
@@ -177,24 +179,38 @@ class Predictor {
     ((kFirst + i < kUsed ? slotOf<kFirst + i>(node, match).setWord(words[i]) : void()), ...);
   }
 
+  // What was decided, and whether that was uncertain enough to learn from.
+  struct Decision {
+    bool bit, learns;
+  };
+
+  // Nothing is learned from what was as good as certain, in 1/65536: that takes fewer bytes than learning from all, and
+  // less time.
+  static constexpr uint32_t kLeastError = 1024;
+
+  static bool learnsFrom(bool bit, uint32_t probability) {
+    return (bit ? 65536 - probability : probability) >= kLeastError;
+  }
+
   template <class Port>
-  [[gnu::always_inline]] bool decide(Port& port, Selectors selectors, const Inputs<kInputs>& inputs, int match_length,
-                                     bool value) {
+  [[gnu::always_inline]] Decision decide(Port& port, Selectors selectors, const Inputs<kInputs>& inputs,
+                                         int match_length, bool value) {
     if constexpr (kRich) {
       return decideRich(port, selectors, inputs, match_length, value);
     } else {
       Weights<kInputs>& weights = weights_.by_node[selectors.node];
       const uint32_t mixed = squash(weights.mix(inputs));
       const bool bit = port.code(mixed, value);
+      if (!learnsFrom(bit, mixed)) return {bit, false};
       rate_.advance();
       weights.learn(inputs, rate_.step((bit << 16) - static_cast<int32_t>(mixed)));
-      return bit;
+      return {bit, true};
     }
   }
 
   template <class Port>
-  [[gnu::always_inline]] bool decideRich(Port& port, Selectors selectors, const Inputs<kInputs>& inputs,
-                                         int match_length, bool value) {
+  [[gnu::always_inline]] Decision decideRich(Port& port, Selectors selectors, const Inputs<kInputs>& inputs,
+                                             int match_length, bool value) {
     Weights<kInputs>& by_node = weights_.by_node[selectors.node];
     Weights<kInputs>& by_situation = weights_.by_situation[selectors.situation];
     Weights<kInputs>& by_match = weights_.by_match[match_length];
@@ -203,6 +219,8 @@ class Predictor {
     const uint32_t refined = final_.refine(selectors.node, average);
     const uint32_t mixed = std::clamp((squash(average) + refined + 1) >> 1, 2u, 65534u);
     const bool bit = port.code(mixed, value);
+    final_.update(bit);
+    if (!learnsFrom(bit, mixed)) return {bit, false};
     rate_.advance();
     const auto learn = [&](Weights<kInputs>& set, int32_t opinion) {
       set.learn(inputs, rate_.step((bit << 16) - static_cast<int32_t>(squash(opinion))));
@@ -210,8 +228,7 @@ class Predictor {
     learn(by_node, first);
     learn(by_situation, second);
     learn(by_match, third);
-    final_.update(bit);
-    return bit;
+    return {bit, true};
   }
 
   struct PlainWeights {

@@ -39,8 +39,7 @@ struct DefaultProfile {
   using Vertex =
       ContextList<VertexContext::kPredicted, VertexContext::kHeadRing, VertexContext::kNothing, VertexContext::kEnds,
                   VertexContext::kSlots, VertexContext::kHistory, VertexContext::kSums>;
-  using Face = ContextList<FaceContext::kEnds, FaceContext::kNearAngle, FaceContext::kHistory, FaceContext::kAround,
-                           FaceContext::kNothing>;
+  using Face = ContextList<FaceContext::kEnds, FaceContext::kNearAngle, FaceContext::kEdge>;
   static constexpr bool kRich = false, kUsualDegree = true, kHistory = true;
 };
 

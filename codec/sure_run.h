@@ -6,12 +6,12 @@
 
 namespace tutte {
 
-/// How often in a row a flag was a yes. From `kSure` times on it is coded by that number alone; a no leaves one
-/// `kLoss`-th of it.
-template <int kSure, int kLoss>
+/// How often in a row a flag was a yes. After as often as its owner wants, it is coded by that number alone; a no
+/// leaves one `kLoss`-th of it.
+template <int kLoss>
 class SureRun {
  public:
-  bool isSure() const { return length_ >= kSure; }
+  bool isSure(int least) const { return length_ >= least; }
 
   /// Codes the flag, where isSure().
   template <class Port>

@@ -192,7 +192,9 @@ class Mixer:
         if self.rich:
             sets += [self.weights_of('situation', situation), self.weights_of('match', match_length)]
         opinions = [clamp(sum(i * w for i, w in zip(inputs, weights)) >> 16, -2047, 2047) for weights in sets]
-        bit = self.decide(stream, node, opinions)
+        bit, probability = self.decide(stream, node, opinions)
+        if abs((bit << 16) - probability) < 1024:
+            return bit
         self.decisions += 1
         if (self.decisions - 1) % 64 == 0:
             self.rate = 200 + 6000000 // (4000 + self.decisions)
@@ -209,15 +211,16 @@ class Mixer:
 
     def decide(self, stream, node, opinions):
         if not self.rich:
-            return stream.bit(squashed(opinions[0]))
+            return stream.bit(squashed(opinions[0])), squashed(opinions[0])
         average = sum(opinions) * 21845 >> 16
         points, i, part = self.final[node], average + 2048 >> 7, average + 2048 & 127
         refined = (points[i] * (128 - part) + points[i + 1] * part) >> 7
-        bit = stream.bit(clamp(squashed(average) + refined + 1 >> 1, 2, 65534))
+        probability = clamp(squashed(average) + refined + 1 >> 1, 2, 65534)
+        bit = stream.bit(probability)
         target = 65535 if bit else 0
         points[i] += (target - points[i]) * (128 - part) >> 13
         points[i + 1] += (target - points[i + 1]) * part >> 13
-        return bit
+        return bit, probability
 
 
 class Match:

@@ -98,11 +98,11 @@ FACE = {
 }
 
 DEFAULT_VERTEX = ['predicted', 'head ring', 'nothing', 'ends', 'slots', 'history', 'sums']
-DEFAULT_FACE = ['ends', 'near angle', 'history', 'around', 'nothing']
 PROFILES = {
     1: (['predicted'], ['ends'], False),
-    2: (DEFAULT_VERTEX, DEFAULT_FACE, False),
+    2: (DEFAULT_VERTEX, ['ends', 'near angle', 'edge'], False),
     3: (DEFAULT_VERTEX + ['predicted sums', 'beyond', 'current ring', 'degrees', 'ends and slots', 'degree after',
                           'sums and slots', 'predicted slots'],
-        DEFAULT_FACE[:4] + ['edge', 'least', 'angles', 'degrees', 'behind', 'sums', 'slots', 'both', 'edge and degrees', 'dummies', 'nothing'], True),
+        ['ends', 'near angle', 'history', 'around', 'edge', 'least', 'angles', 'degrees', 'behind', 'sums', 'slots', 'both',
+         'edge and degrees', 'dummies', 'nothing'], True),
 }

@@ -59,7 +59,7 @@ class Mixed:
         self.vertex_contexts, self.face_contexts, rich = PROFILES[section.profile]
         self.vertices = Mixer(len(self.vertex_contexts), rich, section.table_bits)
         self.faces = Mixer(len(self.face_contexts), rich, section.table_bits)
-        self.runs, self.plain_runs = {}, [0] * 16
+        self.runs, self.plain_runs, self.sure = {}, [0] * 16, 31 if rich else 15
         self.match = Match(section.match)
         self.valences, self.degrees = [0, 0, 0], [0, 0, 0]
         self.counts = [[0] * 16 for _ in range(16)]
@@ -100,7 +100,7 @@ class Mixed:
         expected = degree or usual
         place = self.plain_place(walk, start, edges, expected, may_be_dummy)
         run, matched = self.plain_runs[place], self.match.expected()
-        sure = run >= 127 and (matched is None or matched < 128 or matched == 128 + expected)
+        sure = run >= 63 and (matched is None or matched < 128 or matched == 128 + expected)
         if sure and stream.bit(65536 - 65536 // (run + 2)):
             self.plainly = True
             answer = (expected if degree else self.counted_degree(expected)), False
@@ -174,7 +174,7 @@ class Mixed:
         if place is None:
             return decide(0, 0, lambda s: s == usual)
         run = self.runs.get(place, 0)
-        if run >= 1023:
+        if run >= self.sure:
             answer = stream.bit(65536 - 65536 // (run + 2))
             self.contradicted = not answer and self.match.expected() == usual
         else:
