@@ -51,29 +51,31 @@ class Habits {
 
 /// Classes of residuals, in ascending order: symbols 0 to 14 are -15 to -12, -11 to -8, -7 and -6, -5 and -4, -3, -2,
 /// -1, 0, and the same upwards. Symbol 15 is everything else. Where large residuals are expected, the m-th below or
-/// above 0 stands for 2^shift of them.
+/// above 0 stands for 2^shift of them: those of a class begin at `least` * 2^shift, or above 0 at 1 more.
 struct ResidualClass {
-  int32_t least, digits;  ///< of the magnitudes less 1
-  int32_t away, side;     ///< 0 for the class of 0, otherwise 1; -1 below 0, otherwise 0
+  int8_t least;
+  uint8_t above;   ///< 1 above 0
+  uint8_t digits;  ///< binary ones of the number within the class
+  uint8_t scaled;  ///< all bits are set if they become `shift` more
 };
 inline constexpr int kMostDirect = 15;
 inline constexpr uint32_t kZeroClass = 7;
-inline constexpr std::array<ResidualClass, kSymbols> kClasses = {{{11, 2, 1, -1},
-                                                                  {7, 2, 1, -1},
-                                                                  {5, 1, 1, -1},
-                                                                  {3, 1, 1, -1},
-                                                                  {2, 0, 1, -1},
-                                                                  {1, 0, 1, -1},
-                                                                  {0, 0, 1, -1},
+inline constexpr std::array<ResidualClass, kSymbols> kClasses = {{{-15, 0, 2, 255},
+                                                                  {-11, 0, 2, 255},
+                                                                  {-7, 0, 1, 255},
+                                                                  {-5, 0, 1, 255},
+                                                                  {-3, 0, 0, 255},
+                                                                  {-2, 0, 0, 255},
+                                                                  {-1, 0, 0, 255},
                                                                   {0, 0, 0, 0},
-                                                                  {0, 0, 1, 0},
-                                                                  {1, 0, 1, 0},
-                                                                  {2, 0, 1, 0},
-                                                                  {3, 1, 1, 0},
-                                                                  {5, 1, 1, 0},
-                                                                  {7, 2, 1, 0},
-                                                                  {11, 2, 1, 0},
-                                                                  {15, 0, 1, 0}}};
+                                                                  {0, 1, 0, 255},
+                                                                  {1, 1, 0, 255},
+                                                                  {2, 1, 0, 255},
+                                                                  {3, 1, 1, 255},
+                                                                  {5, 1, 1, 255},
+                                                                  {7, 1, 2, 255},
+                                                                  {11, 1, 2, 255},
+                                                                  {15, 1, 0, 255}}};
 
 /// Where a residual is expected: in half octaves of its size, each for four fractions of the prediction; for all that
 /// is larger, residuals are scaled, and the four cells are for the size's binary digits below the first.
@@ -103,7 +105,7 @@ TUTTE_TABLE std::array<Distribution, kCells> kPriors = madeTable([] {
     const int outside = 32768 - beyond(-8 * kMostDirect - 4 - fraction);
     int last = 32768;
     for (int i = 0; i < kSymbols - 1; ++i) {
-      const int most = i < 7 ? -1 - kClasses[i].least : kClasses[i + 1].least;
+      const int most = i < 7 ? kClasses[i + 1].least - 1 : kClasses[i + 1].least;
       // Every symbol keeps a little.
       last = std::max(std::min(beyond(8 * most + 4 - fraction) + outside, last - 3), 3 * (kSymbols - 1 - i));
       priors[cell].above[i] = static_cast<uint16_t>(last);
@@ -121,76 +123,90 @@ TUTTE_TABLE Distribution kEvenPrior = madeTable([] {
   return prior;
 });
 
-/// One context (`two` false) or two. Few habits, because small meshes visit each of them seldom.
+/// Which distributions suit an expected size.
+struct SizeCell {
+  uint8_t first, second;  ///< the first cell, and the first coarse one
+  uint8_t fractions;      ///< 3: the next three are for other fractions; 0: there is one
+  uint8_t shift;          ///< residuals are scaled by 2^shift
+};
+inline constexpr uint32_t kCoarse = 5, kCoarseCells = 2 * kFractions + 1;  // half octaves; cells
+
+/// By a size's logarithm, four steps per octave, from that of 4 eighths on.
+TUTTE_TABLE std::array<SizeCell, 4 * 28> kSizeCells = madeTable([] {
+  std::array<SizeCell, 4 * 28> cells{};
+  for (uint32_t i = 0; i < cells.size(); ++i) {
+    const uint32_t octave = i / 4, top = kTopLog - 1;
+    const auto shift = static_cast<uint8_t>(octave < top ? 0 : octave + 1 - top);
+    const auto first = static_cast<uint8_t>(shift == 0 ? i / 2 * kFractions : kScaledCell + i % 4);
+    const auto second = static_cast<uint8_t>(shift == 0 ? (i / 2 >= kCoarse) * kFractions : kCoarseCells - 1);
+    cells[i] = {first, second, static_cast<uint8_t>(shift == 0 ? kFractions - 1 : 0), shift};
+  }
+  return cells;
+});
+
+/// With one context or two. Few habits, because small meshes visit each of them seldom.
 class ClassCoder {
  public:
-  static constexpr bool wantsAll() { return false; }
-
-  explicit ClassCoder(bool two)
-      : two_(two),
-        firsts_(kCells * kRows, [](uint32_t i) { return kPriors[i / kRows]; }),
+  ClassCoder()
+      : firsts_(kCells * kRows, [](uint32_t i) { return kPriors[i % kCells]; }),
         seconds_(
             kCoarseCells * kColumns,
             [](uint32_t i) {
-              const uint32_t cell = i / kColumns;
+              const uint32_t cell = i % kCoarseCells;
               return kPriors[cell == kCoarseCells - 1 ? kScaledCell + 1
                                                       : cell / kFractions * kFractions * kCoarse + cell % kFractions];
             }),
         outside_(2, [](uint32_t) { return kEvenPrior; }) {}
 
   template <class Port>
-  [[gnu::always_inline]] int32_t code(Port& port, const Expectation& about, int32_t residual) {
+  [[gnu::always_inline]] int32_t code(Port& port, const Expectation& about, int32_t residual, bool two) {
     const uint32_t size = Expectation::half(about.estimate) + 4;
-    const int log = floorLog(size), shift = std::max(log - kTopLog, 0);
-    // Upwards is where the residual is likelier to be.
-    const int32_t fraction = static_cast<int32_t>((about.fraction + 8) & 15) - 8;
-    const auto down = static_cast<int32_t>((16 * int64_t{about.side} + fraction) >> 63);
-    const auto part = std::min(static_cast<uint32_t>(((fraction ^ down) - down + 8) >> 2), kFractions - 1);
-    const uint32_t octave = static_cast<uint32_t>(2 * log) + (size >> (log - 1)) - 6;
-    const bool scaled = shift > 0;
-    const uint32_t cell = scaled ? kScaledCell + (size >> (log - 2)) - 4 : octave * kFractions + part;
-    Distribution& first = firsts_[(cell * 3 + static_cast<uint32_t>(about.rank)) * 4 + about.members];
-    Distribution& second =
-        two_ ? secondOf(about, scaled ? kCoarseCells - 1 : (octave >= kCoarse) * kFractions + part, shift) : first;
-    const int32_t turned = (residual ^ down) - down;
+    const int log = floorLog(size);
+    const SizeCell& cell = kSizeCells[static_cast<uint32_t>(4 * log) + (size >> (log - 2)) - 12];
+    const int shift = cell.shift;
+    const uint32_t part = about.fraction >> 2 & cell.fractions;
+    Distribution& first = firsts_[(static_cast<uint32_t>(about.rank) * 4 + about.members) * kCells + cell.first + part];
+    Distribution& second = two ? seconds_[columnOf(about, shift) + cell.second + part] : first;
     uint32_t symbol = 0;
-    if constexpr (Port::kWriting) symbol = classOf(turned, shift);
+    if constexpr (Port::kWriting) symbol = classOf(residual, shift);
     // The average of one is that one.
     symbol = port.symbol(Parts(first, second), symbol);
     approach(first, kTargets[symbol]);
-    if (two_) approach(second, kTargets[symbol]);
+    if (two) approach(second, kTargets[symbol]);
     if (symbol == kSymbols - 1) [[unlikely]]
-      return (codeOutside(port, turned, shift) ^ down) - down;
-    const ResidualClass found = kClasses[symbol];
-    const int32_t least = found.least * (1 << shift) + found.away, side = found.side ^ down;
-    const int digits = found.digits + (shift & -found.away);
-    const uint32_t rest = port.bits(digits, static_cast<uint32_t>((residual ^ side) - side - least));
-    return ((least + static_cast<int32_t>(rest)) ^ side) - side;
+      return codeOutside(port, residual, shift);
+    const ResidualClass& found = kClasses[symbol];
+    const int32_t least = found.least * (1 << shift) + found.above;
+    const uint32_t rest = port.bits(found.digits + (shift & found.scaled), static_cast<uint32_t>(residual - least));
+    return least + static_cast<int32_t>(rest);
   }
 
  private:
-  static constexpr uint32_t kRows = 12, kCoarse = 5, kCoarseCells = 2 * kFractions + 1;
-  static constexpr uint32_t kSpreads = 7, kNears = 5, kColumns = kSpreads * kNears;
+  static constexpr uint32_t kRows = 12;
+  static constexpr int kSpreads = 7, kNears = 5;
+  static constexpr uint32_t kColumns = kSpreads * kNears;
   static constexpr int kMostLength = 7;
   static constexpr int kLongest = 28;  // of residuals, in binary digits
 
   static int floorLog(uint32_t x) { return 31 ^ __builtin_clz(x); }
 
-  [[gnu::always_inline]] Distribution& secondOf(const Expectation& about, uint32_t cell, int shift) {
-    const uint32_t spread = lengthOf(about.spread, shift, kSpreads), near = lengthOf(about.near, shift, kNears);
-    return seconds_[(cell * kSpreads + spread) * kNears + near];
+  /// The first of the coarse cells for what neighbours and predictions say about a component.
+  [[gnu::always_inline]] static uint32_t columnOf(const Expectation& about, int shift) {
+    return static_cast<uint32_t>(lengthOf(about.spread, shift, kSpreads) * kNears +
+                                 lengthOf(about.near, shift, kNears)) *
+           kCoarseCells;
   }
 
-  static uint32_t lengthOf(int32_t size, int shift, uint32_t count) {
-    return std::min(static_cast<uint32_t>(floorLog((Expectation::half(size) >> shift) + 4) - 2), count - 1);
+  static int lengthOf(int32_t size, int shift, int count) {
+    return std::min(floorLog((Expectation::half(size) >> shift) + 4) - 2, count - 1);
   }
 
-  static uint32_t classOf(int32_t turned, int shift) {
-    if (turned == 0) return kZeroClass;
-    const int32_t scaled = ((turned < 0 ? -turned : turned) - 1) >> shift;
+  static uint32_t classOf(int32_t residual, int shift) {
+    if (residual == 0) return kZeroClass;
+    const int32_t scaled = ((residual < 0 ? -residual : residual) - 1) >> shift;
     uint32_t up = 1;
     while (kZeroClass + up < kSymbols - 1 && kClasses[kZeroClass + up + 1].least <= scaled) ++up;
-    return kZeroClass + up == kSymbols - 1 || turned > 0 ? kZeroClass + up : kZeroClass - up;
+    return kZeroClass + up == kSymbols - 1 || residual > 0 ? kZeroClass + up : kZeroClass - up;
   }
 
   // Farther than the classes go: how many digits this has and to which side, and the digits.
@@ -216,7 +232,6 @@ class ClassCoder {
     return (symbol & 1) != 0 ? below - decoded : above + decoded;
   }
 
-  const bool two_;
   Habits firsts_, seconds_, outside_;
   Chance longer_;
 };

@@ -71,7 +71,7 @@ inline std::vector<SurfaceNormal> surfaceNormals(const ValueGraph& graph, Places
 template <int C>
 class DirectionGuide {
  public:
-  static bool wantsEdges(ValueKind) { return false; }
+  static SurroundingsFinder::Wanted wanted(ValueKind) { return {.predictions = false}; }
 
   /// Without places (an empty span), only the neighbours count. `max` is twice the octahedron's centre.
   DirectionGuide(const ValueGraph& graph, const Nodes<C>& nodes, std::span<const int32_t> places, int32_t max,
@@ -83,9 +83,9 @@ class DirectionGuide {
   void refine(const Surroundings& around, Stencil<C, int32_t>& stencil) {
     std::array<int32_t, kCandidates> errors{};
     std::array<int32_t, 3> sum{}, normals{};
-    const auto count = static_cast<int32_t>(around.neighbours.size());
+    const auto count = static_cast<int32_t>(around.neighbours().size());
     int32_t inward = 0;
-    for (const Index neighbour : around.neighbours) {
+    for (const Index neighbour : around.neighbours()) {
       const State& state = states_[neighbour];
       for (int k = 0; k < kCandidates; ++k) errors[k] += state.errors[k];
       for (int i = 0; i < 3; ++i) {
@@ -94,7 +94,7 @@ class DirectionGuide {
       }
       inward += state.inward;
     }
-    if (!surface_.empty()) here_ = surface_[around.site];
+    if (!surface_.empty()) here_ = surface_[around.site()];
     inward_ = count > 0 ? 2 * inward > count : last_inward_;
     if (inward_) turnRound();
     predict(sum, normals, count, stencil.base);

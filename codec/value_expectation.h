@@ -19,7 +19,7 @@ struct Expectation {
   int32_t apart = 0;      ///< how far the second-best prediction is from the best
   uint32_t members = 0;   ///< how many parallelograms, at most 3; 0 if one was picked
   uint32_t source = 0;    ///< 0 within a polygon, 1 across an edge, 2 neither
-  uint32_t fraction = 0;  ///< the last four digits of the prediction
+  uint32_t fraction = 0;  ///< in its last four digits, those of the prediction, from 1/2 below a whole number on
   int rank = 0;           ///< which component of its site it is, at most 2
   int32_t side = 0;       ///< below 0, the value is likelier below the prediction; above 0, above; 0: not known
 

@@ -14,7 +14,13 @@ namespace tutte::values {
 /// The guide of a kind of values, in vectors of four, whose components are the same as in vectors of two.
 class AnyGuide {
  public:
-  static bool wantsEdges(ValueKind kind) { return kind == ValueKind::kTexcoord; }
+  static SurroundingsFinder::Wanted wanted(ValueKind kind) {
+    switch (kind) {
+      case ValueKind::kTexcoord: return TexcoordGuide<4>::wanted(kind);
+      case ValueKind::kDirection: return DirectionGuide<4>::wanted(kind);
+      default: return {};
+    }
+  }
 
   AnyGuide(const ValueGraph& graph, const Nodes<4>& nodes, std::span<const int32_t> places, int32_t max, ValueKind kind,
            Weighting weighting) {

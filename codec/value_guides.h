@@ -20,7 +20,7 @@ inline constexpr int kWeightings = 3;
 /// For attributes without relatives.
 template <int C>
 struct NoGuide {
-  static bool wantsEdges(ValueKind) { return false; }
+  static SurroundingsFinder::Wanted wanted(ValueKind) { return {}; }
 
   NoGuide(const ValueGraph&, const Nodes<C>&, std::span<const int32_t>, int32_t, ValueKind, Weighting) {}
   template <class T>
@@ -38,7 +38,12 @@ class Places {
     return {value[0], value[1], value[2]};
   }
   Vector3 between(Index from, Index to) const {
-    const Vector3 a = (*this)[from], b = (*this)[to];
+    const std::array<int32_t, 3> step = shortStep(from, to);
+    return {step[0], step[1], step[2]};
+  }
+  /// The same in fewer bits.
+  std::array<int32_t, 3> shortStep(Index from, Index to) const {
+    const int32_t *a = &values_[size_t{from} * 3], *b = &values_[size_t{to} * 3];
     return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   }
 
@@ -58,7 +63,8 @@ int64_t distance(const Vec<C, int32_t>& a, const Vec<C, int32_t>& b) {
 template <int C>
 class TexcoordGuide {
  public:
-  static bool wantsEdges(ValueKind) { return true; }
+  /// Where there is a parallelogram, edges say more than what is far away.
+  static SurroundingsFinder::Wanted wanted(ValueKind) { return {.edges = true, .far = false}; }
 
   TexcoordGuide(const ValueGraph& graph, const Nodes<C>& nodes, std::span<const int32_t> places, int32_t max, ValueKind,
                 Weighting)
@@ -67,11 +73,11 @@ class TexcoordGuide {
   void refine(const Surroundings& around, Stencil<C, int32_t>& stencil) {
     count_ = 0;
     int64_t here_error = 0, stencil_error = 0;
-    for (const Index neighbour : around.neighbours) {
+    for (const Index neighbour : around.neighbours()) {
       here_error += states_[neighbour].here_error;
       stencil_error += states_[neighbour].stencil_error;
     }
-    for (const Edge& edge : around.edges) develop(around.site, edge);
+    for (const Edge& edge : around.edges()) develop(around.site(), edge);
     stencil_base_ = here_base_ = stencil.base;
     if (count_ == 0) return;
     average();
@@ -79,7 +85,7 @@ class TexcoordGuide {
     if (weak || here_error <= stencil_error)
       adopt(stencil, weak);
     else
-      stencil.lean = here_base_;
+      keep(stencil);
   }
 
   void learn(Index, const Vec<C, int32_t>& value) {
@@ -103,11 +109,11 @@ class TexcoordGuide {
 
   /// The prediction from an edge that runs round the face that the site belongs to.
   void develop(Index site, const Edge& side) {
-    if (count_ == Stencil<C, int32_t>::kMostMembers) return;
-    Vector3 edge = places_.between(side.from, side.to), leg = places_.between(side.from, site);
-    const int64_t largest = std::max(largestMagnitude(edge), largestMagnitude(leg));
-    const int shift = static_cast<int>(std::bit_width(static_cast<uint64_t>(largest))) - 14;
-    for (int i = 0; i < 3 && shift > 0; ++i) edge[i] >>= shift, leg[i] >>= shift;
+    std::array<int32_t, 3> edge = places_.shortStep(side.from, side.to), leg = places_.shortStep(side.from, site);
+    uint32_t digits = 0;
+    for (size_t i = 0; i < 3; ++i) digits |= magnitude(edge[i]) | magnitude(leg[i]);
+    const int shift = static_cast<int>(std::bit_width(digits)) - 14;
+    for (size_t i = 0; i < 3 && shift > 0; ++i) edge[i] >>= shift, leg[i] >>= shift;
     const int64_t square = dot(edge, edge), along = dot(edge, leg);
     if (square == 0) return;
     const int64_t across = squareRoot(static_cast<uint64_t>(dot(leg, leg) * square - along * along));
@@ -127,6 +133,11 @@ class TexcoordGuide {
     }
   }
 
+  static uint32_t magnitude(int32_t x) { return static_cast<uint32_t>(x < 0 ? -x : x); }
+  static int64_t dot(const std::array<int32_t, 3>& a, const std::array<int32_t, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
+
   int turnAt(Index p, Index q) const {
     if (states_[p].turn != 0) return states_[p].turn;
     return states_[q].turn != 0 ? states_[q].turn : last_turn_;
@@ -144,8 +155,17 @@ class TexcoordGuide {
     stencil.adopt(Source::kAcrossTriangle, here_base_, std::span(members_.data(), static_cast<size_t>(count_)));
     if (weak) return;
     stencil.lean = stencil_base_;
-    if (count_ > 1) return;
-    for (int i = 0; i < 2; ++i) {
+    if (count_ == 1) spread(stencil);
+  }
+
+  void keep(Stencil<C, int32_t>& stencil) {
+    stencil.lean = here_base_;
+    if (stencil.member_count == 1) spread(stencil);
+  }
+
+  // Of a single prediction: how far the other guess is from it.
+  void spread(Stencil<C, int32_t>& stencil) const {
+    for (size_t i = 0; i < 2; ++i) {
       const int32_t off = stencil_base_[i] - here_base_[i];
       stencil.spread[i] = off < 0 ? -off : off;
     }

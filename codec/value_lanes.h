@@ -45,6 +45,19 @@ inline uint32_t countAbove(Eight low, Eight high, Eight limit) {
   return static_cast<uint32_t>(__builtin_ctz(~static_cast<uint32_t>(_mm_movemask_epi8(above))));
 }
 
+inline void addCross(int32_t* sum, const int32_t* origin, const int32_t* first, const int32_t* second, int shift) {
+  const auto load4 = [](const int32_t* from) { return _mm_load_si128(reinterpret_cast<const __m128i*>(from)); };
+  const auto from = [&](const int32_t* to) {
+    const __m128i way = _mm_sra_epi32(_mm_sub_epi32(load4(to), load4(origin)), _mm_cvtsi32_si128(shift));
+    return _mm_packs_epi32(way, way);
+  };
+  const __m128i u = from(first), w = from(second), back = _mm_sub_epi16(_mm_setzero_si128(), u);
+  const __m128i a = _mm_unpacklo_epi16(_mm_shufflelo_epi16(u, 0xC9), _mm_shufflelo_epi16(back, 0xD2));
+  const __m128i b = _mm_unpacklo_epi16(_mm_shufflelo_epi16(w, 0xD2), _mm_shufflelo_epi16(w, 0xC9));
+  const auto target = reinterpret_cast<__m128i*>(sum);
+  _mm_store_si128(target, _mm_add_epi32(load4(sum), _mm_madd_epi16(a, b)));
+}
+
 #elif defined(__wasm_simd128__)
 
 using Eight = v128_t;
@@ -63,6 +76,17 @@ inline Eight towards(Eight from, Eight to, Eight rate) {
 inline uint32_t countAbove(Eight low, Eight high, Eight limit) {
   const v128_t above = wasm_i8x16_narrow_i16x8(wasm_i16x8_gt(low, limit), wasm_i16x8_gt(high, limit));
   return static_cast<uint32_t>(__builtin_ctz(~static_cast<uint32_t>(wasm_i8x16_bitmask(above))));
+}
+
+inline void addCross(int32_t* sum, const int32_t* origin, const int32_t* first, const int32_t* second, int shift) {
+  const auto from = [&](const int32_t* to) {
+    const v128_t way = wasm_i32x4_shr(wasm_i32x4_sub(wasm_v128_load(to), wasm_v128_load(origin)), shift);
+    return wasm_i16x8_narrow_i32x4(way, way);
+  };
+  const v128_t u = from(first), w = from(second), back = wasm_i16x8_neg(u);
+  const v128_t a = wasm_i16x8_shuffle(u, back, 1, 10, 2, 8, 0, 9, 3, 11);
+  const v128_t b = wasm_i16x8_shuffle(w, w, 2, 1, 0, 2, 1, 0, 3, 3);
+  wasm_v128_store(sum, wasm_i32x4_add(wasm_v128_load(sum), wasm_i32x4_dot_i16x8(a, b)));
 }
 
 #else
@@ -103,6 +127,19 @@ inline uint32_t countAbove(const Eight& low, const Eight& high, const Eight& lim
   uint32_t count = 0;
   for (size_t i = 0; i < 8; ++i) count += uint32_t{low[i] > limit[i]} + uint32_t{high[i] > limit[i]};
   return count;
+}
+/// Adds, modulo 2^32, the cross product of two vectors of three components, all at 16-byte boundaries with a fourth
+/// number behind them: the ways from `origin`, shifted right until they fit into 16 bits.
+inline void addCross(int32_t* sum, const int32_t* origin, const int32_t* first, const int32_t* second, int shift) {
+  std::array<uint32_t, 3> u, w;
+  for (size_t i = 0; i < 3; ++i) {
+    u[i] = static_cast<uint32_t>((first[i] - origin[i]) >> shift);
+    w[i] = static_cast<uint32_t>((second[i] - origin[i]) >> shift);
+  }
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
+    sum[i] = static_cast<int32_t>(static_cast<uint32_t>(sum[i]) + u[j] * w[k] - u[k] * w[j]);
+  }
 }
 
 #endif

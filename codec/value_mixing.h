@@ -60,7 +60,7 @@ class MixingCoder {
 
   static constexpr int kSigns = 8 * 3;
   static int signContext(const Expectation& about) {
-    return static_cast<int>(about.fraction >> 1) * 3 + (about.side > 0) - (about.side < 0) + 1;
+    return static_cast<int>((about.fraction & 15) >> 1) * 3 + (about.side > 0) - (about.side < 0) + 1;
   }
 
   using Line = std::array<Slot, kBins>;
@@ -94,7 +94,7 @@ class MixingCoder {
         ((about.source * 4 + about.members) * 16 + about.relative(about.all, level, -7, 8)) * kLengths + e,
         (about.relative(about.so_far, level, -7, 8) * 3 + rank) * kLengths + e,
         (about.relative(about.apart, level, -7, 8) * 3 + rank) * kLengths + e,
-        (about.fraction * 4 + about.members) * kLengths + e,
+        ((about.fraction & 15) * 4 + about.members) * kLengths + e,
         (last_[rank] * 3 + rank) * kLengths + e};
     return linesAt(contexts);
   }

@@ -12,6 +12,7 @@
 #include "codec/value_graph.h"
 #include "codec/value_guides.h"
 #include "codec/value_model.h"
+#include "codec/value_picks.h"
 #include "codec/value_residuals.h"
 #include "codec/value_stencil.h"
 #include "codec/value_tables.h"
@@ -41,39 +42,39 @@ class SitePredictor {
   SitePredictor(Port& port, const ValueGraph& graph, std::span<const int32_t> places, const Options& options,
                 Residuals& residuals)
       : port_(port),
-        finder_(graph, Guide::wantsEdges(options.kind), !options.fast),
+        finder_(graph, wanted(options)),
         nodes_(graph.siteCount()),
         stencil_(nodes_, options.max),
         guide_(graph, nodes_, places, options.max, options.kind, options.weighting),
         residuals_(residuals),
         count_(options.components),
+        part_(count_ == 3 ? 21845 : 65536 / count_),
         max_(options.max),
         tangent_(options.points() && !options.fast) {
     if (options.echoes) echoes_.emplace(graph, nodes_, count_);
     if (options.copies) copies_.emplace(graph, nodes_, sizeof(T) == 4 && count_ == 3);
-    picks_.fill(Chance(6160));
   }
 
   /// Codes the value of the next site; a writer takes it from `values`, which has all sites', a reader stores it there.
   void code(std::span<int32_t> values) {
-    const Surroundings& around = finder_.next();
-    const std::span<int32_t> value = values.subspan(size_t{around.site} * count_, static_cast<size_t>(count_));
+    const Surroundings around = finder_.next();
+    const std::span<int32_t> value = values.subspan(size_t{around.site()} * count_, static_cast<size_t>(count_));
     stencil_.gather(around, last_, tangent_);
     guide_.refine(around, stencil_);
     estimateScale();
-    if (copies_ && copies_->look(around.site, stencil_.base)) followOriginal();
+    if (copies_ && copies_->look(around.site(), stencil_.base)) followOriginal();
     if constexpr (Port::kWriting) std::ranges::copy(value, wanted_.begin());
-    if (!echo(around.site)) {
+    if (!echo(around.site())) {
       pick();
       codeComponents();
     }
     last_ = wanted_;
     if constexpr (!Port::kWriting) {
-      for (int i = 0; i < width(); ++i) value[i] = last_[i];
+      store(value);
     }
     nodes_.add({last_, errors_});
-    guide_.learn(around.site, last_);
-    if (echoes_) echoes_->learn(around.site);
+    guide_.learn(around.site(), last_);
+    if (echoes_) echoes_->learn(around.site());
     if (copies_) copies_->learn(last_);
     adaptTypicalError();
   }
@@ -86,9 +87,22 @@ class SitePredictor {
   static constexpr size_t kLanes = C;  // those that are not used stay 0
   static constexpr T kOne = 1 << kFraction;
 
-  bool parallelograms() const { return stencil_.member_count > 0; }
+  static SurroundingsFinder::Wanted wanted(const Options& options) {
+    SurroundingsFinder::Wanted wanted = Guide::wanted(options.kind);
+    wanted.far &= !options.fast;
+    return wanted;
+  }
 
   int width() const { return C == 2 ? C : count_; }
+
+  // Three are the usual number.
+  void store(std::span<int32_t> value) const {
+    if (C == 4 && count_ == 3) [[likely]] {
+      for (size_t i = 0; i < 3; ++i) value[i] = last_[i];
+    } else {
+      for (int i = 0; i < width(); ++i) value[i] = last_[i];
+    }
+  }
 
   // The value of an earlier site; the residuals are what they would have been.
   bool echo(Index site) {
@@ -127,63 +141,62 @@ class SitePredictor {
     near_error_.fill(all_error_);
   }
 
-  // One parallelogram instead of the average: explicit, where there are several.
+  // One parallelogram instead of the average.
   void pick() {
-    several_ = picked_ = 0;
+    several_ = stencil_.member_count > 1 ? -1 : 0;
+    picked_ = 0;
     members_context_ = static_cast<uint32_t>(std::min(stencil_.member_count, 3));
-    if (stencil_.member_count < 2) return;
-    several_ = -1;
-    T spread = 0;
-    for (size_t i = 0; i < kLanes; ++i) spread += stencil_.spread[i];
-    const int level = std::min((bitLength(small(spread) + 4) - 3) >> 1, 5);
-    const uint32_t count = static_cast<uint32_t>(std::min(stencil_.member_count, 4)) - 2;
-    const uint32_t within = stencil_.source == Source::kWithin ? 1 : 0;
-    Chance& chance = picks_[((within * 3 + count) * 2 + last_picked_) * 6 + static_cast<uint32_t>(level)];
-    int choice = 0;
-    if constexpr (Port::kWriting) choice = bestMember(chance);
-    last_picked_ = chance.code(port_, choice > 0);
-    if (!last_picked_) return;
-    int m = 0;
-    std::array<Chance, Stencil<C, T>::kMostMembers>& row = indices_[count];
-    while (m + 1 < stencil_.member_count && !row[m].code(port_, choice - 1 == m)) ++m;
-    stencil_.base = stencil_.members[m];
+    if (!several_ || !picks_.code(port_, stencil_, wanted_, width())) return;
     members_context_ = 0;
     picked_ = 1;
   }
 
-  // 0: the average; m + 1: parallelogram m. Costs are in quarters of bits.
-  int bestMember(const Chance& chance) const {
-    const auto cost = [&](const Values& prediction) {
-      int32_t sum = 0;
-      for (int i = 0; i < width(); ++i) {
-        const T off = wanted_[i] * kOne - prediction[i];
-        sum += quarterLog(small((off < 0 ? -off : off) + 8));
-      }
-      return sum;
-    };
-    int best = 0;
-    int32_t least = cost(stencil_.base) - 4;
-    const int32_t price = -chance.stretched() / 44 + (stencil_.member_count > 2 ? 4 : 2);
-    for (int m = 0; m < stencil_.member_count; ++m) {
-      const int32_t here = cost(stencil_.members[m]) + price;
-      if (here >= least) continue;
-      least = here;
-      best = m + 1;
-    }
-    return best;
-  }
-
   void codeComponents() {
     if constexpr (C == 4) plane_.turn(stencil_.normal);
-    residuals_.withCoder([&](auto& coder) {
-      SoFar so_far;
-      for (size_t place = 0; place < static_cast<size_t>(width()); ++place) codeComponent(coder, place, so_far);
+    lookAhead();
+    residuals_.withCoder([&](auto&& coder) { codeComponents(coder); });
+  }
+
+  // What expectations of all components need.
+  void lookAhead() {
+    const int32_t all = all_error_, several = several_;
+    const Values& spread = stencil_.spread;
+    spread_ = eachOf<C, int32_t>([&](size_t i) {
+      return static_cast<int32_t>(sizeof(T) == 4 ? spread[i] : std::min<T>(spread[i], kMostSpread));
     });
+    const auto usual = eachOf<C, int32_t>([&](size_t i) { return all + near_error_[i]; });
+    share_ = eachOf<C, int32_t>([&](size_t i) { return usual[i] + ((4 * spread_[i]) & several); });
+    first_usual_ = usual[plane_.component(0)];
+    if (plane_.bent()) {
+      if constexpr (C == 4) side_ = plane_.normal();
+    } else {
+      const Values &lean = stencil_.lean, &base = stencil_.base;
+      side_ = eachOf<C, int32_t>([&](size_t i) {
+        const T apart = lean[i] - base[i];
+        return static_cast<int32_t>(sizeof(T) == 4 ? apart : std::clamp<T>(apart, -kWidest, kWidest));
+      });
+    }
+    share_digits_ = 2 - several + picked_;
+  }
+
+  // Unrolled, except where a program's size counts.
+  template <class Coder>
+  void codeComponents(Coder& coder) {
+    SoFar so_far;
+#if defined(TUTTE_COMPACT)
+    for (size_t place = 0; place < static_cast<size_t>(width()); ++place) codeComponent(coder, place, so_far);
+#else
+    codeComponent(coder, 0, so_far);
+    if (width() > 1) codeComponent(coder, 1, so_far);
+    if (C == 2 || width() < 3) return;
+    codeComponent(coder, 2, so_far);
+    if (width() > 3) codeComponent(coder, 3, so_far);
+#endif
   }
 
   /// About the components of the current site that are known.
   struct SoFar {
-    Values raw{};  ///< how far they are from the base
+    T first = 0, second = 0;  ///< how far they are from the base
     int32_t errors = 0, weighed = 0;
   };
 
@@ -194,48 +207,53 @@ class SitePredictor {
     const bool corrected = place == 2 && plane_.bent();
     if (corrected) {
       const uint32_t situation = source() * 2 + (stencil_.member_count > 1);
-      prediction += static_cast<T>(plane_.correction(so_far.raw, all_error_, situation));
+      prediction += static_cast<T>(plane_.correction(so_far.first, so_far.second, all_error_, situation));
     }
-    const auto rounded = static_cast<int32_t>(std::clamp<T>((prediction + 8) >> kFraction, 0, max_));
-    const Expectation about = expect(i, place, so_far, prediction, coder.wantsAll());
-    int32_t coded = rounded + coder.code(port_, about, wanted_[i] - rounded);
+    // Turned round, where values are likelier below the prediction.
+    const T down = coder.wantsAll() ? 0 : downwards(side_[i], prediction);
+    const T turned = ((prediction ^ down) - down) + 8;
+    const Expectation about = expect(i, place, so_far, prediction, static_cast<uint32_t>(turned), coder.wantsAll());
+    const auto rounded = static_cast<int32_t>(turned >> kFraction), sign = static_cast<int32_t>(down);
+    int32_t coded = rounded + coder.code(port_, about, Port::kWriting ? ((wanted_[i] ^ sign) - sign) - rounded : 0);
+    coded = (coded ^ sign) - sign;
     if (static_cast<uint32_t>(coded) > static_cast<uint32_t>(max_)) [[unlikely]] {
       damaged_ = true;
       coded = std::clamp(coded, 0, static_cast<int32_t>(max_));
     }
     wanted_[i] = coded;
-    so_far.raw[i] = T{coded} * kOne - stencil_.base[i];
     const T off = T{coded} * kOne - prediction;
     const auto error = static_cast<int32_t>(std::min<T>(off < 0 ? -off : off, kLargestError));
     errors_[i] = error;
     so_far.errors += error;
     so_far.weighed = place == 0 ? 2 * error : (so_far.weighed >> 1) + error;
-    if (corrected) plane_.learn(so_far.raw[i]);
+    if (place == 0) so_far.first = off;
+    if (place == 1) so_far.second = off;
+    if (corrected) plane_.learn(off);
   }
 
-  uint32_t source() const { return parallelograms() ? stencil_.source == Source::kWithin ? 0 : 1 : 2; }
+  // -1: below the prediction; 0: above it.
+  static T downwards(int32_t side, T prediction) {
+    return (2 * side + static_cast<int32_t>((prediction + 8) >> 3 & 1) - 1) >> 31;
+  }
+
+  uint32_t source() const { return stencil_.member_count == 0 ? 2 : stencil_.source == Source::kWithin ? 0 : 1; }
 
   [[gnu::always_inline]] Expectation expect(size_t i, size_t place, const SoFar& so_far, T prediction,
-                                            bool wants_all) const {
+                                            uint32_t fraction, bool wants_all) const {
     Expectation about;
     about.near = near_error_[i];
-    about.spread =
-        static_cast<int32_t>(sizeof(T) == 4 ? stencil_.spread[i] : std::min<T>(stencil_.spread[i], kMostSpread));
+    about.spread = spread_[i];
     about.members = members_context_;
     about.rank = static_cast<int>(std::min<size_t>(place, 2));
-    about.fraction = static_cast<uint32_t>(prediction & 15);
-    const T apart = stencil_.lean[i] - prediction;
-    about.side =
-        plane_.bent() ? plane_.normal(i) : static_cast<int32_t>(sizeof(T) == 4 ? apart : std::clamp<T>(apart, -1, 1));
-    const int32_t usual = all_error_ + about.near;
-    const int32_t around = (usual + (place == 0 ? usual : so_far.weighed)) >> 2;
-    // Nothing is decided, because whether there are several parallelograms is hard to foresee.
-    about.estimate = (around + (((about.spread - around) & several_) >> 1)) >> picked_;
+    about.fraction = fraction;
+    about.side = side_[i];
+    about.estimate = (share_[i] + (place == 0 ? first_usual_ : so_far.weighed)) >> share_digits_;
     if (wants_all) {
       about.all = all_error_;
       about.so_far = so_far.errors;
       about.widest = static_cast<int32_t>(std::min(*std::ranges::max_element(stencil_.spread), kWidest));
       about.source = source();
+      const T apart = stencil_.lean[i] - prediction;
       about.apart = static_cast<int32_t>(std::min<T>(apart < 0 ? -apart : apart, kWidest));
     }
     return about;
@@ -249,14 +267,10 @@ class SitePredictor {
   }
 
   // Of a sum over them, which is below 2^23.
-  int32_t perComponent(int32_t sum) const {
-    constexpr std::array<int64_t, 5> kShares = {0, 65536, 32768, 21845, 16384};
-    return static_cast<int32_t>(sum * (C == 2 ? kShares[2] : kShares[static_cast<size_t>(count_)]) >> 16);
-  }
+  int32_t perComponent(int32_t sum) const { return static_cast<int32_t>(sum * int64_t{C == 2 ? 32768 : part_} >> 16); }
 
   static constexpr T kWidest = 1 << 25;
   static constexpr int32_t kMostSpread = 1 << 28;  // numbers of 32 bits never reach it
-  static uint32_t small(int64_t x) { return static_cast<uint32_t>(std::min<int64_t>(x, 0x7FFFFFF0)); }
 
   Port& port_;
   SurroundingsFinder finder_;
@@ -266,20 +280,22 @@ class SitePredictor {
   Residuals& residuals_;
   std::optional<Echoes<C>> echoes_;
   std::optional<Copies<C, T>> copies_;
-  std::array<Chance, 2 * 3 * 2 * 6> picks_;
-  std::array<std::array<Chance, Stencil<C, T>::kMostMembers>, 3> indices_;
+  Picks<C, T> picks_;
   TangentPlane plane_;
 
   const int count_;  // of components
+  const int part_;   // 65536 / that
   const T max_;
   const bool tangent_;
   bool damaged_ = false;
-  bool last_picked_ = false;  // a single parallelogram, at the last site that had several
   int32_t typical_error_ = 64;
   Vec<C, int32_t> last_{};
 
   // Of the current site.
   Vec<C, int32_t> wanted_{}, near_error_{}, errors_{};  // `wanted_` is the value
+  Vec<C, int32_t> spread_{}, share_{}, side_{};         // what lookAhead() found
+  int32_t first_usual_ = 0;
+  int share_digits_ = 2;
   int32_t all_error_ = 0;
   uint32_t members_context_ = 0;
   int32_t several_ = 0;  // parallelograms: -1; 0: none or one

@@ -13,11 +13,8 @@ namespace tutte::values {
 class Residuals {
  public:
   /// `mixing`: the smallest profile; otherwise by classes, with one or two contexts.
-  Residuals(bool mixing, bool two_contexts) {
-    if (mixing)
-      mixing_.emplace();
-    else
-      classes_.emplace(two_contexts);
+  Residuals(bool mixing, bool two_contexts) : two_contexts_(two_contexts) {
+    mixing ? void(mixing_.emplace()) : void(classes_.emplace());
   }
 
   /// Calls visit(coder) with one of the coders, or with this, which is one, too: where a program's size counts, what
@@ -27,7 +24,12 @@ class Residuals {
 #if defined(TUTTE_COMPACT)
     visit(*this);
 #else
-    classes_ ? visit(*classes_) : visit(*mixing_);
+    if (mixing_) return visit(*mixing_);
+    if (two_contexts_) [[likely]] {
+      visit(Classes<true>{*classes_});
+    } else {
+      visit(Classes<false>{*classes_});
+    }
 #endif
   }
 
@@ -36,10 +38,23 @@ class Residuals {
 
   template <class Port>
   [[gnu::always_inline]] int32_t code(Port& port, const Expectation& about, int32_t residual) {
-    return classes_ ? classes_->code(port, about, residual) : mixing_->code(port, about, residual);
+    return classes_ ? classes_->code(port, about, residual, two_contexts_) : mixing_->code(port, about, residual);
   }
 
  private:
+  /// A text for each number of contexts.
+  template <bool two>
+  struct Classes {
+    ClassCoder& coder;
+
+    static constexpr bool wantsAll() { return false; }
+    template <class Port>
+    [[gnu::always_inline]] int32_t code(Port& port, const Expectation& about, int32_t residual) const {
+      return coder.code(port, about, residual, two);
+    }
+  };
+
+  const bool two_contexts_;
   std::optional<ClassCoder> classes_;
   std::optional<MixingCoder> mixing_;
 };

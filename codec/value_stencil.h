@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "codec/value_lanes.h"
 #include "codec/value_nodes.h"
 #include "codec/value_surroundings.h"
 #include "codec/value_tables.h"
@@ -28,7 +29,7 @@ class Stencil {
 
   /// `last` is used where nothing is known around the site.
   void gather(const Surroundings& around, const Vec<C, int32_t>& last, bool want_normal) {
-    sumErrors(around.neighbours);
+    sumErrors(around.neighbours());
     normal.fill(0);
     if constexpr (C == 4) {
       want_normal ? makeMembers<true>(around) : makeMembers<false>(around);
@@ -60,12 +61,12 @@ class Stencil {
   Source source = Source::kLast;
   int member_count = 0;  ///< parallelograms, if `source` is one of the first two
   std::array<Values, kMostMembers> members;
-  Values base;                      ///< the prediction
-  Values spread;                    ///< how much the predictions disagree
-  Values lean;                      ///< another prediction: the value is likelier on its side of the base
-  int32_t neighbours = 0;           ///< known ones
-  Values error_sum;                 ///< of the neighbours' errors
-  std::array<int32_t, 3> normal{};  ///< of the surroundings, not of unit length; 0: unknown
+  Values base;                                  ///< the prediction
+  Values spread;                                ///< how much the predictions disagree
+  Values lean;                                  ///< another prediction: the value is likelier on its side of the base
+  int32_t neighbours = 0;                       ///< known ones
+  Values error_sum;                             ///< of the neighbours' errors
+  alignas(16) std::array<int32_t, 4> normal{};  ///< of the surroundings, not of unit length; 0: unknown
 
  private:
   static constexpr size_t kWidth = C;
@@ -94,22 +95,27 @@ class Stencil {
   [[gnu::always_inline]] void makeMembers(const Surroundings& around) {
     member_count = 0;
     source = Source::kWithin;
-    for (const Term& term : around.scaled) addScaled(term);
+    for (const Term& term : around.scaled()) addScaled(term);
     if constexpr (kWantNormal) {
-      for (const Term& term : around.planes) addNormal(value(term.a), value(term.b), value(term.x));
+      for (const Term& term : around.planes()) addNormal(value(term.a), value(term.b), value(term.x));
     }
-    for (const Term& term : around.within) addParallelogram<kWantNormal>(term);
+    for (const Term& term : around.within()) {
+      addParallelogram<kWantNormal>(term, [](T a, T b, T x, size_t) { return (a + b - x) * kOne; });
+    }
     if (member_count > 0) return;
-    for (const Term& term : around.across) addParallelogram<kWantNormal>(term);
+    for (const Term& term : around.across()) {
+      const Vec<C, int32_t>& y = value(term.y);
+      addParallelogram<kWantNormal>(term,
+                                    [&](T a, T b, T x, size_t i) { return (2 * (a + b) - x - y[i]) * (kOne / 2); });
+    }
     source = member_count > 0 ? Source::kAcrossTriangle : Source::kLast;
   }
 
-  template <bool kWantNormal>
-  [[gnu::always_inline]] void addParallelogram(const Term& term) {
+  template <bool kWantNormal, class Predict>
+  [[gnu::always_inline]] void addParallelogram(const Term& term, Predict predict) {
     if (member_count == kMostMembers) return;
-    const Vec<C, int32_t>&a = value(term.a), &b = value(term.b), &x = value(term.x), &y = value(term.y);
-    members[static_cast<size_t>(member_count++)] =
-        each([&](size_t i) { return (2 * (T{a[i]} + b[i]) - x[i] - y[i]) * (kOne / 2); });
+    const Vec<C, int32_t>&a = value(term.a), &b = value(term.b), &x = value(term.x);
+    members[static_cast<size_t>(member_count++)] = each([&](size_t i) { return predict(a[i], b[i], x[i], i); });
     if constexpr (kWantNormal) addNormal(b, a, x);
   }
 
@@ -122,18 +128,9 @@ class Stencil {
     });
   }
 
-  // Unsigned, because many large faces may wrap round.
   [[gnu::always_inline]] void addNormal(const Vec<C, int32_t>& origin, const Vec<C, int32_t>& first,
                                         const Vec<C, int32_t>& second) {
-    std::array<uint32_t, 3> u, w;
-    for (size_t i = 0; i < 3; ++i) {
-      u[i] = static_cast<uint32_t>((first[i] - origin[i]) >> normal_shift_);
-      w[i] = static_cast<uint32_t>((second[i] - origin[i]) >> normal_shift_);
-    }
-    for (size_t i = 0; i < 3; ++i) {
-      const size_t j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
-      normal[i] = static_cast<int32_t>(static_cast<uint32_t>(normal[i]) + u[j] * w[k] - u[k] * w[j]);
-    }
+    lanes::addCross(normal.data(), origin.data(), first.data(), second.data(), normal_shift_);
   }
 
   // Fills in base and spread from the best source.
@@ -183,9 +180,9 @@ class Stencil {
         have_spread = true;
       }
     };
-    if (!around.over.empty()) offer(Source::kAcrossFace, meanOf(around.over));
-    if (!have_spread && !around.straight.empty()) offer(Source::kStraight, meanOf(around.straight));
-    if (!have_spread && neighbours > 0) offer(Source::kNeighbours, meanOf(around.neighbours));
+    if (!around.over().empty()) offer(Source::kAcrossFace, meanOf(around.over()));
+    if (!have_spread && !around.straight().empty()) offer(Source::kStraight, meanOf(around.straight()));
+    if (!have_spread && neighbours > 0) offer(Source::kNeighbours, meanOf(around.neighbours()));
     if (!have_base) {
       source = Source::kLast;
       base = lean = each([&](size_t i) { return last[i] * kOne; });

@@ -19,56 +19,52 @@ template <class Visit>
 
 }  // namespace
 
-SurroundingsFinder::SurroundingsFinder(const ValueGraph& graph, bool want_edges, bool far)
-    : graph_(graph), want_edges_(want_edges), far_(far), lists_(new Lists) {}
+SurroundingsFinder::SurroundingsFinder(const ValueGraph& graph, const Wanted& wanted)
+    : graph_(graph), wanted_(wanted), lists_(new Lists) {}
 
 void SurroundingsFinder::fill() {
   Lists& lists = *lists_;
-  lists.neighbours.restart();
-  for (auto* list : {&lists.within, &lists.across, &lists.planes}) list->restart();
-  for (auto* list : {&lists.scaled, &lists.over, &lists.straight}) list->restart();
-  lists.edges.restart();
+  ends_ = {lists.neighbours.data(), lists.scaled.data(), lists.within.data(),   lists.across.data(),
+           lists.planes.data(),     lists.over.data(),   lists.straight.data(), lists.edges.data()};
   at_ = count_ = 0;
+  begins_[0] = ends_;
   graph_.withFaces([&](const auto& faces) {
     for (size_t corners = 0; count_ < kBatch && corners < kBatchCorners && site_ < graph_.siteCount(); ++site_) {
-      corners += find(faces, batch_[count_++]);
+      corners += find(faces);
+      begins_[++count_] = ends_;
     }
   });
 }
 
 /// Returns how many corners there are at most.
 template <class Faces>
-[[gnu::always_inline]] inline size_t SurroundingsFinder::find(const Faces& faces, Surroundings& found) {
-  Lists& lists = *lists_;
-  const size_t sides = gather(faces);
+[[gnu::always_inline]] inline size_t SurroundingsFinder::find(const Faces& faces) {
+  size_t fans = 0;
+  const size_t sides = gather(faces, fans);
+  if (Faces::kAllTriangles || !wanted_.predictions) return sides;
   if constexpr (!Faces::kAllTriangles) {
-    const int inside = lists.scaled.size() + lists.within.size(), all = inside > 0 ? inside : lists.across.size();
-    if (all <= far_) {
-      lookOver(faces, sides);
-      if (all == 0 || lists.over.size() == 0) lookStraight(faces, sides);
+    const Surroundings::Begins& begins = begins_[count_];
+    const auto inside = (ends_.scaled - begins.scaled) + (ends_.within - begins.within);
+    const auto all = inside > 0 ? inside : ends_.across - begins.across;
+    if (all <= wanted_.far) {
+      const std::span<const Fan> found(lists_->fans.data(), fans);
+      lookOver(faces, found);
+      if (all == 0 || ends_.over == begins.over) lookStraight(faces, found);
     }
-    found.scaled = lists.scaled.take();
-    found.within = lists.within.take();
-    found.planes = lists.planes.take();
-    found.over = lists.over.take();
-    found.straight = lists.straight.take();
   }
-  found.site = site_;
-  found.neighbours = lists.neighbours.take();
-  found.across = lists.across.take();
-  if (want_edges_) found.edges = lists.edges.take();
   return sides;
 }
 
 // Goes round the site; returns where its sides end. A side is the site at the corner before, which is the one after in
 // the next face of the fan; only the fan's first is looked up apart, when it is open.
 template <class Faces>
-[[gnu::always_inline]] inline size_t SurroundingsFinder::gather(const Faces& faces) {
+[[gnu::always_inline]] inline size_t SurroundingsFinder::gather(const Faces& faces, size_t& fans) {
   Sides& sides = lists_->sides;
-  Index* neighbours = lists_->neighbours.end;
+  Index* neighbours = ends_.neighbours;
   const Index here = site_;
   size_t begin = 0, side = 0;
-  uint64_t known = 0, large = 0;
+  uint64_t known = 0;
+  Index others = 0;  // 0: there are but quads
   graph_.goRound(
       faces, here,
       [&](Index corner, Index prev) __attribute__((always_inline)) {
@@ -76,20 +72,22 @@ template <class Faces>
         const bool is_known = site < here;
         ++side;
         known = 2 * known + is_known;
-        if constexpr (!Faces::kAllTriangles) large = 2 * large + (faces.degree(corner) > 4);
+        if constexpr (!Faces::kAllTriangles) others |= faces.degree(corner) ^ 4;
         sides.site[side] = site;
         sides.corner[side] = prev;
         *neighbours = site;
         neighbours += is_known;
       },
       [&](Index first, Index beyond) __attribute__((always_inline)) {
-        lists_->neighbours.end = neighbours;
+        ends_.neighbours = neighbours;
         beginFan(faces, first, beyond, begin, side);
         const size_t count = side - begin;
-        visitFan(faces, {side, count, known | uint64_t{sides.site[begin] < here} << count, large});
+        const Fan fan{side, count, known | uint64_t{sides.site[begin] < here} << count};
+        if (wanted_.predictions) visitFan(faces, fan, others == 0);
+        if constexpr (!Faces::kAllTriangles) lists_->fans[fans++] = fan;
         begin = ++side;
-        known = large = 0;
-        neighbours = lists_->neighbours.end;
+        known = others = 0;
+        neighbours = ends_.neighbours;
       });
   return side;
 }
@@ -99,29 +97,35 @@ template <class Faces>
 [[gnu::always_inline]] inline void SurroundingsFinder::beginFan(const Faces& faces, Index first, Index beyond,
                                                                 size_t begin, size_t last) {
   Sides& sides = lists_->sides;
-  sides.corner[begin] = kNone;
   if (beyond == first) {
     sides.site[begin] = sides.site[last];
     return;
   }
-  auto& neighbours = lists_->neighbours;
-  if (beyond != kNone) neighbours.end -= known(sides.site[last]);
+  if (beyond != kNone) ends_.neighbours -= known(sides.site[last]);
   sides.site[begin] = graph_.site(faces.next(first));
-  neighbours.add(sides.site[begin], known(sides.site[begin]));
+  add(ends_.neighbours, sides.site[begin], known(sides.site[begin]));
 }
 
 template <class Faces>
-[[gnu::always_inline]] inline void SurroundingsFinder::visitFan(const Faces& faces, const Fan& fan) {
-  if (want_edges_) forHighestFirst(fan.all(), [&](int bit) { addEdges(faces, fan.side(bit)); });
-  const uint64_t both = fan.known & fan.known >> 1;
-  if constexpr (Faces::kAllTriangles) {
-    forHighestFirst(both, [&](int bit) { addAcross(faces, fan.side(bit)); });
-  } else {
-    forHighestFirst(both & ~fan.large, [&](int bit) {
-      const size_t side = fan.side(bit);
-      faces.degree(lists_->sides.corner[side]) == 3 ? addAcross(faces, side) : addWithin(faces, side);
+[[gnu::always_inline]] inline void SurroundingsFinder::visitFan(const Faces& faces, const Fan& fan, bool quads) {
+  if (wanted_.edges) {
+    Edge* const most = begins_[count_].edges + kMostEdges;
+    forHighestFirst(fan.either(), [&](int bit) {
+      if (ends_.edges < most) addEdges(faces, fan.side(bit));
     });
-    forHighestFirst((fan.known | fan.known >> 1) & fan.large, [&](int bit) { visitLarge(faces, fan.side(bit)); });
+    ends_.edges = std::min(ends_.edges, most);
+  }
+  if constexpr (Faces::kAllTriangles) {
+    forHighestFirst(fan.both(), [&](int bit) { addAcross(faces, fan.side(bit)); });
+  } else if (quads) {
+    forHighestFirst(fan.both(), [&](int bit) { addWithin(faces, fan.side(bit)); });
+  } else {
+    forHighestFirst(fan.either(), [&](int bit) {
+      const size_t side = fan.side(bit);
+      const Index degree = faces.degree(lists_->sides.corner[side]);
+      if (degree > 4) return visitLarge(faces, side);
+      if ((fan.both() >> bit & 1) != 0) degree == 4 ? addWithin(faces, side) : addAcross(faces, side);
+    });
   }
 }
 
@@ -136,14 +140,16 @@ template <class Faces>
   if constexpr (!Faces::kAllTriangles) {
     if (faces.degree(twin) != 3) y = graph_.site(faces.next(faces.next(twin)));
   }
-  lists_->across.add({sides.site[side - 1], sides.site[side], x, y}, known(x) & known(y));
+  add(ends_.across, {sides.site[side - 1], sides.site[side], x, y}, known(x) & known(y));
 }
 
 template <class Faces>
 [[gnu::always_inline]] inline void SurroundingsFinder::addWithin(const Faces& faces, size_t side) {
   const Sides& sides = lists_->sides;
   const Index far = graph_.site(faces.prev(sides.corner[side]));
-  lists_->within.add({sides.site[side - 1], sides.site[side], far, far}, known(far));
+  Term* const within = ends_.within;
+  within->a = sides.site[side - 1], within->b = sides.site[side], within->x = far;
+  ends_.within += known(far);
 }
 
 // A regular polygon's diagonal over three sides is parallel to the middle one.
@@ -155,17 +161,16 @@ void SurroundingsFinder::visitLarge(const Faces& faces, size_t side) {
   const Index c = graph_.site(next2), d = graph_.site(prev2);
   const PolygonRatio ratio = kPolygonRatio[std::min(faces.degree(prev), kLargestPolygon)];
   const auto k = static_cast<Index>(ratio.k), inverse = static_cast<Index>(ratio.inverse);
-  auto& scaled = lists_->scaled;
   if (known(a) && known(b)) {
-    scaled.add({b, a, d, inverse}, known(d));
-    scaled.add({a, b, c, inverse}, known(c));
-    lists_->planes.add({b, a, c, 0}, known(c));
+    add(ends_.scaled, {b, a, d, inverse}, known(d));
+    add(ends_.scaled, {a, b, c, inverse}, known(c));
+    add(ends_.planes, {b, a, c, 0}, known(c));
   } else if (known(b) && known(d)) {
     const Index e = graph_.site(faces.prev(prev2));
-    scaled.add({e, b, d, k}, known(e));
+    add(ends_.scaled, {e, b, d, k}, known(e));
   } else if (known(a) && known(c)) {
     const Index e = graph_.site(faces.next(next2));
-    scaled.add({e, a, c, k}, known(e));
+    add(ends_.scaled, {e, a, c, k}, known(e));
   }
 }
 
@@ -180,53 +185,65 @@ void SurroundingsFinder::addEdges(const Faces& faces, size_t side) {
 
 // Over the edges that are opposite or beside, from a neighbour a to c; x lies beyond c. Weaker than what is within.
 template <class Faces>
-void SurroundingsFinder::lookOver(const Faces& faces, size_t end) {
+void SurroundingsFinder::lookOver(const Faces& faces, std::span<const Fan> fans) {
   const ValueGraph& graph = graph_;
   const Index here = site_;
   const Sides& sides = lists_->sides;
-  Term* const most = lists_->over.begin + kMostFar;
-  Term* over = lists_->over.end;
+  Term* over = ends_.over;
   const auto add = [&](Index a, Index c, Index beyond) __attribute__((always_inline)) {
     const Index x = graph.site(beyond);
     over->a = a, over->b = c, over->x = x;
     over->y = faces.degree(beyond) == 3;
-    over += (x < here) & (over < most);
+    over += x < here;
   };
-  for (size_t side = 1; side < end; ++side) {
-    const Index prev = sides.corner[side];
-    if (prev == kNone || faces.degree(prev) <= 3) continue;
-    const Index a = sides.site[side - 1], b = sides.site[side];
-    if (a < here) {
-      const Index edge = faces.next(faces.next(prev)), c = graph.site(faces.next(edge)), beyond = graph.twin(edge);
-      if (c < here && beyond != kNone) add(a, c, faces.prev(beyond));
-    }
-    if (b < here) {
-      const Index edge = faces.prev(prev), c = graph.site(edge), beyond = graph.twin(edge);
-      if (c < here && beyond != kNone) add(b, c, faces.next(faces.next(beyond)));
-    }
+  for (const Fan& fan : fans) {
+    forHighestFirst(
+        fan.either(), [&](int bit) __attribute__((always_inline)) {
+          const size_t side = fan.side(bit);
+          const Index prev = sides.corner[side], degree = faces.degree(prev);
+          if (degree <= 3) return;
+          const Index a = sides.site[side - 1], b = sides.site[side];
+          const Index far = faces.prev(prev), d = graph.site(far);
+          if (a < here) {
+            const Index edge = degree == 4 ? faces.prev(far) : faces.next(faces.next(prev));
+            const Index c = degree == 4 ? d : graph.site(faces.next(edge));
+            if (c < here) {
+              const Index beyond = graph.twin(edge);
+              if (beyond != kNone) add(a, c, faces.prev(beyond));
+            }
+          }
+          if (b < here && d < here) {
+            const Index beyond = graph.twin(far);
+            if (beyond != kNone) add(b, d, faces.next(faces.next(beyond)));
+          }
+        });
   }
-  lists_->over.end = over;
+  ends_.over = std::min(over, ends_.over + kMostFar);
 }
 
 // On from what lies beyond a neighbour, over that neighbour.
 template <class Faces>
-void SurroundingsFinder::lookStraight(const Faces& faces, size_t end) {
+void SurroundingsFinder::lookStraight(const Faces& faces, std::span<const Fan> fans) {
   const Sides& sides = lists_->sides;
-  for (size_t side = 0; side < end; ++side) {
-    const Index prev = sides.corner[side];
-    if (prev == kNone || faces.degree(prev) <= 3) continue;
-    const Index beyond_a = graph_.twin(faces.next(faces.next(prev))), beyond_b = graph_.twin(faces.prev(prev));
-    const Index a = sides.site[side - 1], b = sides.site[side];
-    if (known(a) && beyond_a != kNone) addStraight(faces, a, faces.next(faces.next(beyond_a)));
-    if (known(b) && beyond_b != kNone) addStraight(faces, b, faces.prev(beyond_b));
+  Term* const most = ends_.straight + kMostFar;
+  for (const Fan& fan : fans) {
+    forHighestFirst(fan.either(), [&](int bit) {
+      const size_t side = fan.side(bit);
+      const Index prev = sides.corner[side];
+      if (faces.degree(prev) <= 3) return;
+      const Index beyond_a = graph_.twin(faces.next(faces.next(prev))), beyond_b = graph_.twin(faces.prev(prev));
+      const Index a = sides.site[side - 1], b = sides.site[side];
+      if (known(a) && beyond_a != kNone) addStraight(faces, a, faces.next(faces.next(beyond_a)));
+      if (known(b) && beyond_b != kNone) addStraight(faces, b, faces.prev(beyond_b));
+    });
   }
+  ends_.straight = std::min(ends_.straight, most);
 }
 
 template <class Faces>
 [[gnu::always_inline]] inline void SurroundingsFinder::addStraight(const Faces& faces, Index a, Index beyond) {
   const Index y = graph_.site(beyond);
-  auto& straight = lists_->straight;
-  straight.add({a, a, y, 0}, known(y) & (faces.degree(beyond) > 3) & (straight.size() < kMostFar));
+  add(ends_.straight, {a, a, y, 0}, known(y) & (faces.degree(beyond) > 3));
 }
 
 }  // namespace tutte::values

@@ -21,59 +21,74 @@ struct Edge {
   Index from, to;
 };
 
-/// The surroundings of a site; all sites in them are known.
-struct Surroundings {
-  Index site;
-  std::span<const Index> neighbours;
-  std::span<const Term> scaled;  ///< predictions within large polygons: a + (b - x) * y / 4096
-  std::span<const Term> within;  ///< in quads: a + b - (x + y) / 2, x and y being the same
-  std::span<const Term> across;  ///< over edges of triangles: a + b - (x + y) / 2
-  std::span<const Term> planes;  ///< of large polygons: a, b and x lie in them
-  std::span<const Term> over;    ///< a + b - x; or, for y = 1, (3 a + b) / 2 - x
-  std::span<const Term>
-      straight;                 ///< 2 a - x, b being a; only where there are not two others of those from `scaled` on
-  std::span<const Edge> edges;  ///< round faces of the site
+/// The surroundings of a site; all sites in them are known. The lists of a batch of sites lie one after the other.
+class Surroundings {
+ public:
+  /// Where a site's lists begin, which is where those of the site before it end.
+  struct Begins {
+    Index* neighbours;
+    Term *scaled, *within, *across, *planes, *over, *straight;
+    Edge* edges;
+  };
+
+  Surroundings(Index site, const Begins* begins) : site_(site), begins_(begins) {}
+
+  Index site() const { return site_; }
+  std::span<const Index> neighbours() const { return list(&Begins::neighbours); }
+  /// Predictions within large polygons: a + (b - x) * y / 4096.
+  std::span<const Term> scaled() const { return list(&Begins::scaled); }
+  /// In quads: a + b - x.
+  std::span<const Term> within() const { return list(&Begins::within); }
+  /// Over edges of triangles: a + b - (x + y) / 2.
+  std::span<const Term> across() const { return list(&Begins::across); }
+  /// Of large polygons: a, b and x lie in them.
+  std::span<const Term> planes() const { return list(&Begins::planes); }
+  /// a + b - x; or, for y = 1, (3 a + b) / 2 - x.
+  std::span<const Term> over() const { return list(&Begins::over); }
+  /// 2 a - x, b being a, and y 0; only where there are not two others of those from `scaled` on.
+  std::span<const Term> straight() const { return list(&Begins::straight); }
+  /// Round faces of the site, four at most.
+  std::span<const Edge> edges() const { return list(&Begins::edges); }
+
+ private:
+  template <class T>
+  std::span<const T> list(T* Begins::*begin) const {
+    return {begins_[0].*begin, begins_[1].*begin};
+  }
+
+  Index site_;
+  const Begins* begins_;
 };
 
 /// Goes from site to site. The walk over the mesh has numbered its vertices as it met them, so that mostly a site's
 /// surroundings have lower numbers on one side: their numbers are the order in which sites become known.
 class SurroundingsFinder {
  public:
-  /// Edges are listed only when they are wanted. Predictions from beyond the faces of a site are where it has no
-  /// parallelogram, and with `far`, where it has one.
-  SurroundingsFinder(const ValueGraph& graph, bool want_edges, bool far);
+  /// Which lists are wanted, besides the neighbours.
+  struct Wanted {
+    bool edges = false;
+    bool predictions = true;  ///< all others
+    bool far = true;  ///< those from beyond the faces of a site, not just where it has no parallelogram, but also
+                      ///< where it has one
+  };
+
+  SurroundingsFinder(const ValueGraph& graph, const Wanted& wanted);
 
   /// The next site's, from 0 on; valid until the next call. There must be one. Known are the sites before it.
-  const Surroundings& next() {
+  Surroundings next() {
     if (at_ == count_) fill();
-    return batch_[at_++];
+    const Index site = site_ - static_cast<Index>(count_ - at_);
+    return {site, &begins_[at_++]};
   }
 
  private:
-  static constexpr int kMostFar = 8;
+  static constexpr int kMostFar = 8, kMostEdges = 4;
   static constexpr size_t kBatch = 32;          // sites
   static constexpr size_t kBatchCorners = 192;  // their corners, but for those of the last one
   static constexpr size_t kCorners = ValueGraph::kMostCorners;
 
   template <class T, size_t kPerCorner>
-  struct List {
-    std::array<T, (kBatchCorners + kCorners) * kPerCorner + 1> items;
-    T *begin, *end;
-
-    void restart() { begin = end = items.data(); }
-    /// Nothing is decided, since nobody could foresee it: the list grows by 0 or 1.
-    void add(const T& item, bool really) {
-      *end = item;
-      end += really;
-    }
-    int size() const { return static_cast<int>(end - begin); }
-    /// What was added since the last call.
-    std::span<const T> take() {
-      const std::span<const T> taken(begin, end);
-      begin = end;
-      return taken;
-    }
-  };
+  using List = std::array<T, (kBatchCorners + kCorners) * kPerCorner + 1>;
 
   /// The sites beside the one whose turn it is, fan by fan, and the face before each: between it and the side before.
   struct Sides {
@@ -81,16 +96,18 @@ class SurroundingsFinder {
     std::array<Index, 2 * kCorners> corner;  ///< of the face, at this side; kNone: a fan begins here
   };
 
-  /// A fan of faces, which lie between sides. In all sets bit i is the side, or the face before the side, that comes i
+  /// A fan of faces, which lie between sides. In sets bit i is the side, or the face before the side, that comes i
   /// before the last.
   struct Fan {
     size_t last;
     size_t faces;
-    uint64_t known;
-    uint64_t large;  ///< faces of more than four corners
+    uint64_t known;  ///< sides
 
     size_t side(int bit) const { return last - static_cast<size_t>(bit); }
     uint64_t all() const { return (uint64_t{1} << faces) - 1; }
+    /// Faces both of whose sides are known, or one.
+    uint64_t both() const { return known & known >> 1; }
+    uint64_t either() const { return (known | known >> 1) & all(); }
   };
 
   struct Lists {
@@ -99,17 +116,18 @@ class SurroundingsFinder {
     List<Term, 2> scaled, over, straight;
     List<Edge, 3> edges;
     Sides sides;
+    std::array<Fan, kCorners> fans;
   };
 
   void fill();
   template <class Faces>
-  size_t find(const Faces& faces, Surroundings& found);
+  size_t find(const Faces& faces);
   template <class Faces>
-  size_t gather(const Faces& faces);
+  size_t gather(const Faces& faces, size_t& fans);
   template <class Faces>
   void beginFan(const Faces& faces, Index first, Index beyond, size_t begin, size_t last);
   template <class Faces>
-  void visitFan(const Faces& faces, const Fan& fan);
+  void visitFan(const Faces& faces, const Fan& fan, bool quads);
   template <class Faces>
   void addAcross(const Faces& faces, size_t side);
   template <class Faces>
@@ -119,20 +137,28 @@ class SurroundingsFinder {
   template <class Faces>
   void addEdges(const Faces& faces, size_t side);
   template <class Faces>
-  void lookOver(const Faces& faces, size_t end);
+  void lookOver(const Faces& faces, std::span<const Fan> fans);
   template <class Faces>
-  void lookStraight(const Faces& faces, size_t end);
+  void lookStraight(const Faces& faces, std::span<const Fan> fans);
   template <class Faces>
   void addStraight(const Faces& faces, Index a, Index beyond);
-  void addEdge(Index from, Index to) { lists_->edges.add({from, to}, known(from) & known(to)); }
+  void addEdge(Index from, Index to) { add(ends_.edges, {from, to}, known(from) & known(to)); }
+
+  /// Nothing is decided, since nobody could foresee it: the list grows by 0 or 1.
+  template <class T>
+  static void add(T*& end, const T& item, bool really) {
+    *end = item;
+    end += really;
+  }
 
   bool known(Index site) const { return site < site_; }
 
   const ValueGraph& graph_;
-  const bool want_edges_, far_;
+  const Wanted wanted_;
   Index site_ = 0;  // whose turn it is
   std::unique_ptr<Lists> lists_;
-  std::array<Surroundings, kBatch> batch_;
+  Surroundings::Begins ends_;
+  std::array<Surroundings::Begins, kBatch + 1> begins_;
   size_t at_ = 0, count_ = 0;
 };
 

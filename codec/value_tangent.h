@@ -15,18 +15,21 @@ class TangentPlane {
   TangentPlane() { gains_.fill(2048); }
 
   /// Lies at right angles to a normal of any length; 0: it is not known, and the components keep their order.
-  void turn(const std::array<int32_t, 3>& normal) {
+  void turn(const std::array<int32_t, 4>& normal) {
     std::array<uint32_t, 3> size;
     for (size_t i = 0; i < 3; ++i) {
       size[i] = normal[i] < 0 ? 0u - static_cast<uint32_t>(normal[i]) : static_cast<uint32_t>(normal[i]);
     }
-    const size_t last = std::max(size[0], size[1]) > size[2] ? size_t{size[0] <= size[1]} : 2;
+    // Sums, because compilers make decisions of conditions, and nobody foresees which is the largest.
+    const size_t upper = size[0] <= size[1], last = upper + (2 - upper) * (size[2] >= std::max(size[0], size[1]));
     bent_ = size[last] != 0;
     order_ = kOrders[last];
     if (!bent_) return;
     const int shift = static_cast<int>(std::bit_width(size[last])) - 12;
-    for (size_t i = 0; i < 3; ++i) {
-      normal_[i] = shift > 0 ? normal[i] >> shift : normal[i] * (1 << -shift);
+    if (shift > 0) [[likely]] {
+      for (size_t i = 0; i < 4; ++i) normal_[i] = normal[i] >> shift;
+    } else {
+      for (size_t i = 0; i < 4; ++i) normal_[i] = normal[i] * (1 << -shift);
     }
     inverse_ = (1 << 24) / normal_[last];
   }
@@ -35,25 +38,25 @@ class TangentPlane {
   bool bent() const { return bent_; }
   /// Which component is coded at a place: last, of three, the one that the plane determines best.
   size_t component(size_t place) const { return order_[place]; }
-  /// Of the normal, 12 binary digits.
-  int32_t normal(size_t component) const { return normal_[component]; }
+  /// 12 binary digits per component.
+  const std::array<int32_t, 4>& normal() const { return normal_; }
 
-  /// How far the plane is from the prediction of the third component, as the others are `raw` away from theirs, and how
-  /// much of that is to be believed. `scale`: the usual error; `situation`: below kSituations.
-  template <class Values>
-  [[gnu::always_inline]] int64_t correction(const Values& raw, int32_t scale, uint32_t situation) {
-    const int64_t sum = normal_[order_[0]] * int64_t{raw[order_[0]]} + normal_[order_[1]] * int64_t{raw[order_[1]]};
+  /// How far the plane is from the prediction of the third component, as the others are away from theirs, and how much
+  /// of that is to be believed. `scale`: the usual error; `situation`: below kSituations.
+  [[gnu::always_inline]] int64_t correction(int64_t first, int64_t second, int32_t scale, uint32_t situation) {
+    const int64_t sum = normal_[order_[0]] * first + normal_[order_[1]] * second;
     correction_ = -sum * inverse_ >> 24;
     length_ = bitLength(static_cast<uint32_t>(scale));
     limit_ = 4 * int64_t{scale} + 64;
     gain_ = &gains_[static_cast<uint32_t>(std::min(length_, 15)) * kSituations + situation];
-    return *gain_ * correction_ >> 12;
+    believed_ = *gain_ * correction_ >> 12;
+    return believed_;
   }
 
-  /// The third component was `off` from its uncorrected prediction.
-  [[gnu::always_inline]] void learn(int64_t off) {
+  /// The third component was `error` from its corrected prediction.
+  [[gnu::always_inline]] void learn(int64_t error) {
+    const int64_t off = error + believed_;
     if (std::max(off < 0 ? -off : off, correction_ < 0 ? -correction_ : correction_) > limit_) return;
-    const int64_t error = off - (*gain_ * correction_ >> 12);
     const int64_t step = std::clamp<int64_t>(error * correction_ * 64 >> 2 * length_, -512, 512);
     *gain_ = static_cast<int32_t>(std::clamp<int64_t>(*gain_ + step, -512, 4608));
   }
@@ -67,11 +70,11 @@ class TangentPlane {
   std::array<int32_t, 16 * kSituations> gains_;  // in 1/4096
   Order order_ = kOrders[2];
   bool bent_ = false;
-  std::array<int32_t, 3> normal_{};
+  std::array<int32_t, 4> normal_{};
   int32_t inverse_ = 0;  // 2^24 / the last component
 
   // Of the current site.
-  int64_t correction_ = 0, limit_ = 0;
+  int64_t correction_ = 0, believed_ = 0, limit_ = 0;
   int length_ = 0;
   int32_t* gain_ = nullptr;
 };

@@ -32,7 +32,7 @@ bool matches(Port& port, int count, uint64_t seed) {
     const auto likely = random.below(2) == 0 ? symbol : static_cast<uint32_t>(random.below(values::kSymbols));
     const values::Distribution a = skewed(likely), b = skewed(7);
     same &= port.symbol(i % 2 == 0 ? values::Parts(a) : values::Parts(a, b), symbol) == symbol;
-    const int digits = static_cast<int>(random.below(33));
+    const int digits = static_cast<int>(random.below(32));
     const auto number = static_cast<uint32_t>(random.next() & ((uint64_t{1} << digits) - 1));
     same &= port.bits(digits, number) == number;
   }
@@ -40,30 +40,29 @@ bool matches(Port& port, int count, uint64_t seed) {
 }
 
 bool reads(std::span<const uint8_t> bytes, int count, uint64_t seed) {
-  ByteReader in(bytes);
-  const std::span<const uint8_t> decisions = in.take(in.varint());
-  if (in.error() != Error::kNone) return false;
-  ValueReader port(decisions, in.take(in.remaining()));
-  return matches(port, count, seed) && !port.overrun() && !port.trailing();
+  ValueReader port(bytes);
+  return matches(port, count, seed) && !port.wrongEnd();
 }
 
 TEST(ValuePort, WhatIsWrittenComesBack) {
+  int lucky = 0;  // what is likely enough needs no bytes
   for (int count = 0; count < 300; ++count) {
     ValueWriter port;
     matches(port, count, 5);
     ByteWriter out;
     std::move(port).finish(out);
     EXPECT_TRUE(reads(out.bytes(), count, 5)) << count;
-    EXPECT_FALSE(reads(out.bytes(), count + 1, 5)) << count;
+    lucky += reads(out.bytes(), count + 1, 5);
     if (count == 0) continue;
     EXPECT_FALSE(reads(out.bytes().first(out.bytes().size() - 1), count, 5)) << count;
   }
+  EXPECT_LT(lucky, 3);
 }
 
 TEST(ValuePort, NothingTakesNoBytes) {
   ByteWriter out;
   ValueWriter().finish(out);
-  EXPECT_EQ(out.bytes().size(), 1u);  // a length of 0
+  EXPECT_EQ(out.bytes().size(), 0u);
 }
 
 TEST(ValuePort, CertainDecisionsAreNearlyFree) {

@@ -41,12 +41,15 @@ std::vector<uint8_t> bytesOf(const Sites& sites, const ValueFormat& format, std:
 TEST(Values, SurroundingsAreKnown) {
   for (const auto& [name, shape] : shapes::allShapes()) {
     const Sites sites(shape.mesh);
-    values::SurroundingsFinder finder(sites.graph, true, true);
+    values::SurroundingsFinder finder(sites.graph, {.edges = true});
     for (Index i = 0; i < sites.graph.siteCount(); ++i) {
-      const values::Surroundings& around = finder.next();
-      ASSERT_EQ(around.site, i) << name;
-      for (const Index neighbour : around.neighbours) ASSERT_LT(neighbour, i) << name;
-      for (const values::Edge& edge : around.edges) ASSERT_LT(std::max(edge.from, edge.to), i) << name;
+      const values::Surroundings around = finder.next();
+      ASSERT_EQ(around.site(), i) << name;
+      for (const Index neighbour : around.neighbours()) ASSERT_LT(neighbour, i) << name;
+      for (const auto& list : {around.scaled(), around.within(), around.across(), around.over()}) {
+        for (const values::Term& term : list) ASSERT_LT(std::max({term.a, term.b, term.x}), i) << name;
+      }
+      for (const values::Edge& edge : around.edges()) ASSERT_LT(std::max(edge.from, edge.to), i) << name;
     }
   }
 }

@@ -66,7 +66,7 @@ class Textures:
 
     def refine(self, site, around):
         graph, known = self.coder.graph, self.coder.known
-        self.members, self.first = [], None
+        self.members, self.first, developed = [], None, 0
         here = given = 0
         for corner in graph.corners(site):
             n, p = graph.next[corner], graph.prev[corner]
@@ -76,8 +76,9 @@ class Textures:
             given += sum(self.given[s] for s in weighed)
             edges = [(a, b)] + ([(a, c), (d, b)] if graph.degree[corner] > 3 else [])
             for start, end in edges:
-                if known(start) and known(end):
+                if known(start) and known(end) and developed < 4:
                     self.develop(site, start, end)
+                    developed += 1
         self.given_base = self.here_base = around.base
         if not self.members:
             return
@@ -86,6 +87,8 @@ class Textures:
         weak = not around.members
         if not weak and here > given:
             around.lean = self.here_base
+            if len(around.members) == 1:
+                around.spread = [abs(x) for x in minus(self.given_base, self.here_base)]
             return
         around.source, around.base, around.members, around.lean = 1, self.here_base, self.members, self.here_base
         around.spread = [max(abs(x[i] - self.members[0][i]) for x in self.members) for i in range(2)]
@@ -95,8 +98,6 @@ class Textures:
                 around.spread = [abs(x) for x in minus(self.given_base, self.here_base)]
 
     def develop(self, site, start, end):
-        if len(self.members) == 4:
-            return
         at = [self.places[3 * s:3 * s + 3] for s in (start, end, site)]
         edge, leg = minus(at[1], at[0]), minus(at[2], at[0])
         shift = max(largest(edge + leg) - 14, 0)

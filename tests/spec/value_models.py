@@ -33,16 +33,17 @@ def varint(data, at):
 
 class ValueStream:
     def __init__(self, data, at):
-        size, at = varint(data, at)
-        require(at + size <= len(data), 'the decisions end too early')
+        size = len(data) - at
         head = size if size < 8 else size % 4 + 4 if size % 4 else 8
         self.state = int.from_bytes(data[at:at + head], 'big')
         self.words = [int.from_bytes(data[k:k + 4], 'big') for k in range(at + head, at + size, 4)]
         self.words.reverse()
-        self.rest, self.plain_taken = data[at + size:], 0
 
     def take(self, begin, size):
         self.state = size * (self.state >> 16) + self.state % 65536 - begin
+        self.renew()
+
+    def renew(self):
         if self.state < 2**31 and self.words:
             self.state = self.state << 32 | self.words.pop()
 
@@ -59,17 +60,13 @@ class ValueStream:
         return symbol
 
     def plain(self, count):
-        value = 0
-        for i in range(count):
-            at = self.plain_taken
-            require(at < 8 * len(self.rest), 'the plain bits end too early')
-            value |= (self.rest[at // 8] >> at % 8 & 1) << i
-            self.plain_taken += 1
+        value = self.state % 2**count
+        self.state >>= count
+        self.renew()
         return value
 
     def finish(self):
-        require(not self.words and self.state == 0, 'the decisions do not end with the state 0')
-        require(8 * len(self.rest) <= self.plain_taken + 7, 'bytes are left in the plain bits')
+        require(not self.words and self.state == 0, 'the stream does not end with the state 0')
 
 
 # D.4.5 Chances
@@ -191,7 +188,7 @@ class Classes:
         self.first, self.second, self.longer = {}, {}, Chance()
         self.outside = [Habit([2048 * (15 - i) for i in range(15)]) for _ in range(2)]
 
-    def read(self, stream, level, part, down, rank, members, spread, near):
+    def read(self, stream, level, part, rank, members, spread, near):
         """level: of the estimate; spread, near: sizes."""
         shift = max(level // 4 - 4, 0)
         cell, columns = min(level // 2, 10), []
@@ -212,18 +209,18 @@ class Classes:
             return 0
         if symbol < 15:
             row = abs(symbol - 7) - 1
-            residual = 1 + (LEAST[row] << shift) + stream.plain(DIGITS[row] + shift)
-            below = symbol < 7
-        else:
-            habit = self.outside[min(shift, 1)]
-            found = stream.symbol(habit.above)
-            habit.learn(found)
-            length = found >> 1
-            while 7 <= length < 28 - shift and self.longer.read(stream):
-                length += 1
-            residual = 1 + (2**length + stream.plain(length) + 14 << shift) + stream.plain(shift)
-            below = found & 1
-        return residual if below == down else -residual
+            offset = stream.plain(DIGITS[row] + shift)
+            if symbol > 7:
+                return 1 + (LEAST[row] << shift) + offset
+            return offset - (LEAST[row] + (1 << DIGITS[row]) << shift)
+        habit = self.outside[min(shift, 1)]
+        found = stream.symbol(habit.above)
+        habit.learn(found)
+        length = found >> 1
+        while 7 <= length < 28 - shift and self.longer.read(stream):
+            length += 1
+        residual = 1 + (2**length + stream.plain(length) + 14 << shift) + stream.plain(shift)
+        return -residual if found & 1 else residual
 
 
 class Lengths:

@@ -1,8 +1,8 @@
 """What is known around a site: EXTENSION_SPEC.md, D.4.6."""
 from value_geometry import mean
-from value_models import FAST, bit_length
+from value_models import bit_length
 
-POINTS = 1
+POINTS, DIRECTION = 1, 3
 WITHIN, ACROSS, FACE, STRAIGHT, AROUND, LAST = range(6)
 POLYGONS = {4: (4096, 4096), 5: (6627, 2531), 6: (8192, 2048), 7: (9204, 1823), 8: (9889, 1697), 9: (10371, 1618),
             10: (10723, 1565), 11: (10988, 1527), 12: (11190, 1499), 13: (11350, 1478), 14: (11477, 1462),
@@ -24,7 +24,7 @@ class Surroundings:
                 self.neighbours.append(a)
             if known(b) and graph.twin[p] is None:
                 self.neighbours.append(b)
-            degree = graph.degree[corner]
+            degree = graph.degree[corner] if coder.kind != DIRECTION else 0
             if degree == 3 and known(a) and known(b) and graph.twin[n] is not None:
                 twin = graph.twin[n]
                 x = graph.site[graph.prev[twin]]
@@ -91,7 +91,7 @@ class Surroundings:
         if len(members) > 1:
             self.spread = [max(abs(x[i] - members[0][i]) for x in members) for i in range(m)]
             return
-        offers, v = self.far(site) if self.coder.profile != FAST or not members else [], self.coder.values
+        offers, v = self.far(site) if len(members) <= self.coder.far_limit else [], self.coder.values
         if self.neighbours:
             offers.append((AROUND, [mean(16 * sum(v[s][i] for s in self.neighbours), len(self.neighbours))
                                     for i in range(m)]))

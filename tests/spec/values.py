@@ -26,6 +26,7 @@ class Coder:
         self.echoes = Echoes(self) if echoes else None
         self.copies = Copies(graph.mesh, graph.site, self.values, m == 3 and maximum < 2**20) if copies else None
         self.weighting = weighting
+        self.far_limit = -1 if kind == DIRECTION else 0 if kind == TEXTURE or profile == FAST else 1
         self.guide = {TEXTURE: Textures, DIRECTION: Directions}.get(kind, lambda *_: None)(self, places)
 
     def run(self):
@@ -105,9 +106,12 @@ class Coder:
                 inverse = cut(2**24, normal[i])
                 correction = -sum(normal[k] * raw[k] for k in order[:2]) * inverse >> 24
                 prediction += self.gains.setdefault(gain, 2048) * correction >> 12
-            rounded = clamp(prediction + 8 >> 4, 0, self.max)
             side = normal[i] if normal else around.lean[i] - prediction
-            number = rounded + self.residual(around, i, min(rank, 2), so_far, weighed, prediction, side, members, picked)
+            down = self.profile != SMALL and (side < 0 or side == 0 and (prediction + 8) % 16 < 8)
+            turned = -prediction if down else prediction
+            number = (turned + 8 >> 4) + self.residual(around, i, min(rank, 2), so_far, weighed, turned, side, members,
+                                                       picked)
+            number = -number if down else number
             require(0 <= number <= self.max, 'a value outside its range')
             value[i], raw[i] = number, 16 * number - base[i]
             errors[i] = min(abs(16 * number - prediction), 2**20)
@@ -125,21 +129,15 @@ class Coder:
         step = error * correction * 64 >> 2 * bit_length(self.all)
         self.gains[gain] = clamp(self.gains[gain] + clamp(step, -512, 512), -512, 4608)
 
-    def residual(self, around, i, rank, so_far, weighed, prediction, side, members, picked):
+    def residual(self, around, i, rank, so_far, weighed, turned, side, members, picked):
         near, count = self.near[i], len(around.members)
         spread = min(around.spread[i], 2**28)
-        estimate = self.all + near + weighed >> 2 if rank else self.all + near >> 1
-        if count > 1:
-            estimate = estimate + spread >> 1
-        if picked:
-            estimate >>= 1
+        estimate = self.all + near + (weighed if rank else self.all + near) + 4 * spread * (count > 1)
+        estimate >>= 2 + (count > 1) + picked
         level = log4(estimate >> 1)
         if self.profile != SMALL:
-            fraction = (prediction + 8 & 15) - 8
-            down = side < 0 or side == 0 and fraction < 0
-            part = min((-fraction if down else fraction) + 8 >> 2, 3)
-            return self.residuals.read(self.stream, level, part, down, rank, members, spread, near)
-        level, sign = min(level, 63), ((prediction & 15) >> 1, (side > 0) - (side < 0), rank)
+            return self.residuals.read(self.stream, level, (turned + 8) % 16 >> 2, rank, members, spread, near)
+        level, sign = min(level, 63), ((turned & 15) >> 1, (side > 0) - (side < 0), rank)
 
         def relative(size, low, high):
             return clamp(log4(size >> 1) - level >> 1, low, high)
@@ -152,7 +150,7 @@ class Coder:
         contexts = ((level, rank, members), (relative(spread, -7, 7), members, e),
                     (relative(near, -5, 6), relative16(max(around.spread)), e),
                     (source, members, relative16(self.all), e), (relative16(so_far), rank, e),
-                    (relative16(abs(around.lean[i] - prediction)), rank, e), (prediction & 15, members, e))
+                    (relative16(abs(around.lean[i] - turned)), rank, e), (turned & 15, members, e))
         return self.residuals.read(self.stream, e, rank, contexts, sign)
 
 
