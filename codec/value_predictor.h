@@ -36,7 +36,8 @@ class SitePredictor {
     bool copies;
     Weighting weighting;
 
-    bool points() const { return kind == ValueKind::kPoints; }
+    bool angular() const { return kind == ValueKind::kAngular; }
+    bool points() const { return kind == ValueKind::kPoints || angular(); }
   };
 
   SitePredictor(Port& port, const ValueGraph& graph, std::span<const int32_t> places, const Options& options,
@@ -44,7 +45,7 @@ class SitePredictor {
       : port_(port),
         finder_(graph, wanted(options)),
         nodes_(graph.siteCount()),
-        stencil_(nodes_, options.max),
+        stencil_(nodes_, options.max, options.angular() ? siteValences(graph) : std::vector<uint8_t>()),
         guide_(graph, nodes_, places, options.max, options.kind, options.weighting),
         residuals_(residuals),
         count_(options.components),

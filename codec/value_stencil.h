@@ -6,7 +6,10 @@
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
+#include "codec/value_angles.h"
 #include "codec/value_lanes.h"
 #include "codec/value_nodes.h"
 #include "codec/value_surroundings.h"
@@ -23,9 +26,12 @@ class Stencil {
  public:
   using Values = Vec<C, T>;
 
-  /// Values lie in [0, max].
-  Stencil(const Nodes<C>& nodes, T max)
-      : nodes_(nodes), normal_shift_(std::max(0, static_cast<int>(std::bit_width(static_cast<uint32_t>(max))) - 14)) {}
+  /// Values lie in [0, max]. `valences`: those of the sites, where triangles are expected to be shaped by them; or
+  /// none.
+  Stencil(const Nodes<C>& nodes, T max, std::vector<uint8_t> valences)
+      : nodes_(nodes),
+        valences_(std::move(valences)),
+        normal_shift_(std::max(0, static_cast<int>(std::bit_width(static_cast<uint32_t>(max))) - 14)) {}
 
   /// `last` is used where nothing is known around the site.
   void gather(const Surroundings& around, const Vec<C, int32_t>& last, bool want_normal) {
@@ -104,9 +110,13 @@ class Stencil {
     }
     if (member_count > 0) return;
     for (const Term& term : around.across()) {
+      if (member_count == kMostMembers) break;
       const Vec<C, int32_t>& y = value(term.y);
       addParallelogram<kWantNormal>(term,
                                     [&](T a, T b, T x, size_t i) { return (2 * (a + b) - x - y[i]) * (kOne / 2); });
+      if constexpr (C == 4) {
+        if (!valences_.empty()) shape(around.site(), term);
+      }
     }
     source = member_count > 0 ? Source::kAcrossTriangle : Source::kLast;
   }
@@ -117,6 +127,16 @@ class Stencil {
     const Vec<C, int32_t>&a = value(term.a), &b = value(term.b), &x = value(term.x);
     members[static_cast<size_t>(member_count++)] = each([&](size_t i) { return predict(a[i], b[i], x[i], i); });
     if constexpr (kWantNormal) addNormal(b, a, x);
+  }
+
+  // Moves the last member, over the edge of a triangle, to where the valences let expect it.
+  [[gnu::always_inline]] void shape(Index site, const Term& term) {
+    if (term.x != term.y) return;
+    const Shift shift = Shifts::of(valences_[term.a], valences_[term.b], valences_[term.x], valences_[site]);
+    const Vec<C, int32_t>&a = value(term.a), &b = value(term.b), &x = value(term.x);
+    Values& member = members[static_cast<size_t>(member_count) - 1];
+    // Within 32 bits, for points are below 2^20.
+    for (size_t i = 0; i < 3; ++i) member[i] += ((a[i] - x[i]) * shift.a + (b[i] - x[i]) * shift.b) >> (8 - kFraction);
   }
 
   void addScaled(const Term& term) {
@@ -216,6 +236,7 @@ class Stencil {
   }
 
   const Nodes<C>& nodes_;
+  const std::vector<uint8_t> valences_;
   const int normal_shift_;  // so that they fit
 };
 

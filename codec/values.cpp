@@ -162,7 +162,8 @@ bool supports(const ValueSites& sites, const ValueFormat& format) {
   switch (format.kind) {
     case ValueKind::kPlain:
     case ValueKind::kLabel: return true;
-    case ValueKind::kPoints: return format.components == 3 && format.max <= kMaxPoint;
+    case ValueKind::kPoints:
+    case ValueKind::kAngular: return format.components == 3 && format.max <= kMaxPoint;
     case ValueKind::kTexcoord: return format.components == 2 && format.max <= kMaxTexcoord && places;
     case ValueKind::kDirection: return format.components == 2 && format.max % 2 == 0 && format.max > 0;
   }

@@ -26,6 +26,7 @@ enum class ValueKind : uint8_t {
   kTexcoord = 2,   ///< two components are places in a texture that lies on the surface. max < 2^18
   kDirection = 3,  ///< two components are points of an unfolded octahedron. max is even, twice its centre
   kLabel = 4,      ///< all components together are one of at most 4096 names
+  kAngular = 5,    ///< points of a surface of triangles whose angles are as the valences let expect (value_angles.h)
 };
 
 /// What the values are, besides the numbers.

@@ -24,7 +24,7 @@ uint8_t headOf(const ValueFormat& format) {
 
 std::optional<ValueFormat> formatOf(const Plane& plane, uint8_t head) {
   const int profile = head & kProfileMask, kind = head >> kKindShift & kKindMask;
-  if (profile > static_cast<int>(ValueProfile::kSmall) || kind > static_cast<int>(ValueKind::kLabel)) return {};
+  if (profile > static_cast<int>(ValueProfile::kSmall) || kind > static_cast<int>(ValueKind::kAngular)) return {};
   return ValueFormat{plane.components,
                      plane.max,
                      static_cast<ValueProfile>(profile),
@@ -88,11 +88,31 @@ constexpr Index kMostTried = 8192, kMostTriedPositions = 2048;
 std::vector<Trial> trialsFor(PlaneKind kind) {
   switch (kind) {
     case PlaneKind::kPosition:
-      return {{ValueKind::kPoints}, {ValueKind::kPoints, true}, {ValueKind::kPlain, true}, {ValueKind::kPlain}};
+      return {{ValueKind::kPoints},
+              {ValueKind::kAngular},
+              {ValueKind::kPoints, true},
+              {ValueKind::kPlain, true},
+              {ValueKind::kPlain}};
     case PlaneKind::kTexcoord: return {{ValueKind::kTexcoord}, {ValueKind::kLabel}, {ValueKind::kPlain}};
     case PlaneKind::kNormal:
     case PlaneKind::kDirection: return {{ValueKind::kDirection}, {ValueKind::kLabel}, {ValueKind::kPlain}};
     default: return {{ValueKind::kPlain, true}, {ValueKind::kLabel}, {ValueKind::kPlain}};
+  }
+}
+
+bool hasTriangles(const ValueGraph& graph) {
+  for (Index corner = 0; corner < graph.cornerCount(); ++corner) {
+    if (graph.degree(corner) == 3) return true;
+  }
+  return false;
+}
+
+/// How many 256ths more bytes another kind may take that is quicker.
+size_t slownessOf(ValueKind kind) {
+  switch (kind) {
+    case ValueKind::kPoints: return 1;  // a tenth more time than plain
+    case ValueKind::kAngular: return 2;
+    default: return 0;
   }
 }
 
@@ -104,8 +124,7 @@ ValueFormat bestOf(const ValueSites& sites, std::span<const ValueFormat> formats
   for (const ValueFormat& format : formats) {
     const std::optional<size_t> size = estimateValues(sites, format, values, most);
     if (!size) continue;
-    // Points take a tenth more time.
-    const size_t price = format.kind == ValueKind::kPoints ? *size + *size / 256 : *size;
+    const size_t price = *size + *size * slownessOf(format.kind) / 256;
     if (best && price >= least) continue;
     best = format;
     least = price;
@@ -143,6 +162,7 @@ void writePlane(const ValueSites& sites, const Plane& plane, std::span<const int
                 ByteWriter& out) {
   std::vector<ValueFormat> formats;
   for (const Trial& trial : trialsFor(plane.kind)) {
+    if (trial.kind == ValueKind::kAngular && !hasTriangles(sites.graph)) continue;
     formats.push_back({plane.components, plane.max, profile, trial.kind, trial.ranked});
   }
   const Index most = plane.kind == PlaneKind::kPosition ? kMostTriedPositions : kMostTried;

@@ -82,7 +82,7 @@ TEST(Values, Extremes) {
       shapes::Random random(7);
       std::vector<int32_t> values(size_t{sites.graph.siteCount()} * 3);
       for (int32_t& value : values) value = random.below(2) ? max : 0;
-      const ValueFormat format{3, max, profile, max < 1 << 20 ? ValueKind::kPoints : ValueKind::kPlain};
+      const ValueFormat format{3, max, profile, max < 1 << 20 ? ValueKind::kAngular : ValueKind::kPlain};
       const auto decoded = decodeValues({sites.graph, {}}, format, bytesOf(sites, format, values));
       ASSERT_TRUE(decoded);
       EXPECT_EQ(*decoded, values);
@@ -119,7 +119,7 @@ TEST(Values, DamagedBytes) {
     const Sites sites(shape.mesh);
     for (const ValueProfile profile : kProfiles) {
       for (const int32_t max : {16383, (1 << 27) - 1}) {
-        const ValueFormat format{3, max, profile, max < 1 << 20 ? ValueKind::kPoints : ValueKind::kPlain};
+        const ValueFormat format{3, max, profile, max < 1 << 20 ? ValueKind::kAngular : ValueKind::kPlain};
         std::vector<uint8_t> bytes = bytesOf(sites, format, someValues(sites, 3, max, 3));
         for (size_t size = 0; size < bytes.size(); size += 5) {
           ASSERT_TRUE(isHarmless(sites, format, std::span(bytes).first(size)));

@@ -1,8 +1,8 @@
 """What is known around a site: EXTENSION_SPEC.md, D.4.6."""
 from value_geometry import mean
-from value_models import bit_length
+from value_models import bit_length, cut
 
-POINTS, DIRECTION = 1, 3
+POINTS, DIRECTION, ANGULAR = 1, 3, 5
 WITHIN, ACROSS, FACE, STRAIGHT, AROUND, LAST = range(6)
 POLYGONS = {4: (4096, 4096), 5: (6627, 2531), 6: (8192, 2048), 7: (9204, 1823), 8: (9889, 1697), 9: (10371, 1618),
             10: (10723, 1565), 11: (10988, 1527), 12: (11190, 1499), 13: (11350, 1478), 14: (11477, 1462),
@@ -38,7 +38,11 @@ class Surroundings:
         self.source = WITHIN if polygons or quads else ACROSS if triangles else LAST
         chosen = (quads if self.source == WITHIN else triangles)[:max(4 - len(polygons), 0)]
         self.members = polygons[:4] + [self.parallelogram(*f) for f in chosen]
-        if coder.kind == POINTS:
+        if coder.kind == ANGULAR and self.source == ACROSS:
+            for member, (a, b, x, y) in zip(self.members, chosen):
+                if x == y:
+                    self.shift(member, a, b, x, site)
+        if coder.kind in (POINTS, ANGULAR):
             for origin, first, second in normals + [(b, a, x) for a, b, x, _ in chosen]:
                 self.add_normal(values[origin], values[first], values[second])
         self.settle(site)
@@ -68,6 +72,26 @@ class Surroundings:
     def parallelogram(self, a, b, x, y):
         v = self.coder.values
         return [(2 * (v[a][i] + v[b][i]) - v[x][i] - v[y][i]) * 8 for i in range(self.m)]
+
+    def shift(self, member, a, b, x, site):
+        def shape(o):
+            u = l * r + l * o + r * o
+            first, second = (cut((u - 2 * s) * u * 65536, s * (u - s)) for s in (r * o, l * o))
+            return first + second, cut(first * 4096, first + second)
+
+        l, r = (self.valence(s) for s in (a, b))
+        (flat1, foot1), (flat2, foot2) = shape(self.valence(x)), shape(self.valence(site))
+        h = (flat1 * 4096 + flat2 // 2) // flat2
+        k = h * foot1 >> 12
+        f, g = h - k - foot2 >> 4, foot2 + k - 4096 >> 4
+        v = self.coder.values
+        for i in range(3):
+            member[i] += (v[a][i] - v[x][i]) * f + (v[b][i] - v[x][i]) * g >> 4
+
+    def valence(self, site):
+        corners = self.coder.graph.corners(site)
+        is_open = bool(corners) and self.coder.graph.twin[corners[0]] is None
+        return min(max(len(corners) * (2 if is_open else 1), 3), 10)
 
     def add_normal(self, origin, first, second):
         n = max(bit_length(self.coder.max) - 14, 0)

@@ -10,7 +10,7 @@ from value_geometry import Directions, Textures
 from value_sites import Graph
 from value_surroundings import WITHIN, Surroundings
 
-PLAIN, POINTS, TEXTURE, DIRECTION, LABEL = range(5)
+PLAIN, POINTS, TEXTURE, DIRECTION, LABEL, ANGULAR = range(6)
 
 
 # D.4.7 Values
@@ -191,7 +191,7 @@ def labels(graph, count, stream):
 
 def decode(mesh, sites, site_count, m, maximum, head, data, places):
     profile, kind, ranked, echoes, copies = head & 3, head >> 2 & 7, head >> 5 & 1, head >> 6 & 1, head >> 7
-    require(profile <= SMALL and kind <= LABEL, 'head')
+    require(profile <= SMALL and kind <= ANGULAR, 'head')
     graph, at = Graph(mesh, sites, site_count), 0
     if kind == LABEL:
         return read_labels(graph, m, maximum, data)

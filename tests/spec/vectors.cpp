@@ -87,6 +87,8 @@ class ValueVectors {
     places_ = numbersOver(mesh_, 3, 4095, 60);
     for (const ValueProfile profile : {ValueProfile::kFast, ValueProfile::kDefault, ValueProfile::kSmall}) {
       write({3, 4095, profile, ValueKind::kPoints}, 60);
+      write({3, 4095, profile, ValueKind::kAngular}, 60);
+      write({3, (1 << 20) - 1, profile, ValueKind::kAngular, false, true, true}, 200000);
       write({3, 4095, profile, ValueKind::kPoints, true}, 0);
       write({3, (1 << 20) - 1, profile, ValueKind::kPoints, false, true}, 0);
       write({2, (1 << 18) - 1, profile, ValueKind::kTexcoord}, 300);
