@@ -191,8 +191,8 @@ class Boundary {
     if (kTells) gap.degree_behind = face.dummy() ? 0 : face.degree();
     if (kGathers) {
       gap.opposite_next = face.before_current;
-      gap.met = (kFresh ? 0 : gap.met) + (Met{1} << 32) + next.valence;
-      next.met += (Met{1} << 32) + gap.valence;
+      gap.met = (kFresh ? 0 : gap.met) + kMet + next.valence;
+      next.met += kMet + gap.valence;
     }
     script_.cross(gap);
   }

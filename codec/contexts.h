@@ -13,7 +13,7 @@
 
 namespace tutte {
 
-/// The last three symbols of both kinds, the newest in the lowest byte; valences and degrees up to 255.
+/// The last three symbols of both kinds, the newest in the lowest byte; valences and degrees modulo 256.
 struct History {
   uint32_t valences = 0, degrees = 0;
 
@@ -21,13 +21,15 @@ struct History {
   void addDegree(Index degree) { push(degrees, degree); }
 
  private:
-  static void push(uint32_t& list, Index value) { list = (list << 8 | std::min(value, Index{255})) & 0xFFFFFF; }
+  static void push(uint32_t& list, Index value) { list = (list << 8 | (value & 0xFF)) & 0xFFFFFF; }
 };
 
 /// kSides[angle >> 6]: see sidesOf.
-TUTTE_TABLE std::array<uint8_t, 1024> kSides = madeTable([] {
-  std::array<uint8_t, 1024> sides{};
-  for (int part = 0; part < 1024; ++part) sides[part] = static_cast<uint8_t>(std::min(30, 4096 / (1024 - part)));
+TUTTE_TABLE std::array<uint8_t, 2049> kSides = madeTable([] {
+  std::array<uint8_t, 2049> sides{};
+  for (int part = 0; part <= 2048; ++part) {
+    sides[part] = static_cast<uint8_t>(part < 1024 ? std::min(30, 4096 / (1024 - part)) : 30);
+  }
   return sides;
 });
 
@@ -38,12 +40,12 @@ TUTTE_TABLE std::array<uint64_t, 64> kInverse = madeTable([] {
   return inverse;
 });
 
-/// Sides of the regular polygon whose angle is the `parts`-th part of what `angle`, at most 131072, lacks to a whole
+/// Sides of the regular polygon whose angle is the `parts`-th part of what `angle`, at least 0, lacks to a whole
 /// turn (1 - 2 / sides, in 1/65536), in half steps, at most 30.
 [[gnu::always_inline]] inline uint32_t sidesOf(int64_t angle, uint64_t parts) {
   const uint64_t rest = static_cast<uint64_t>(std::max(131072 - angle, int64_t{0}));
   const uint64_t part = parts < kInverse.size() ? rest * kInverse[parts] >> 32 : rest / parts;
-  return kSides[std::min(part >> 6, uint64_t{1023})];
+  return kSides[part >> 6];
 }
 
 /// Packs features, the first one lowest. Each is given with its number of bits.
@@ -70,8 +72,8 @@ inline const Gap& orNone(const Gap* gap) { return gap == nullptr ? kNoGap : *gap
 struct VertexFeatures {
   uint32_t missing;                       // vertices
   uint32_t head, current, before, after;  // valences: at head, at current, and beyond them on the boundary
-  uint32_t head_slots, current_slots, before_slots, after_slots;
-  uint32_t head_sum, current_sum;    // excess of the neighbours' valences, around 8
+  uint32_t head_slots, current_slots, before_slots, after_slots;  // modulo 8
+  uint32_t head_sum, current_sum;                                 // excess of the neighbours' valences, modulo 16
   uint32_t opposite, opposite_head;  // the vertex across the edge before the first missing one / head
   uint32_t predicted;                // valence that would make the dual face flat, in half steps
   uint32_t degree_after;             // degree behind the edge that leaves current
@@ -86,22 +88,22 @@ struct VertexFeatures {
     const Gap &a = at(q.head), &b = at(q.current), &edge = at(q.before_tail), &next = at(b.next), &prev = at(a.prev);
     head = a.capped, current = b.capped, before = prev.capped, after = next.capped;
     head_slots = slots(a), current_slots = slots(b), before_slots = slots(prev), after_slots = slots(next);
-    const int regular = q.degree == 3 ? 6 : 4;
-    head_sum = sum(a, regular), current_sum = sum(b, regular);
+    const uint32_t extra = q.degree == 3 ? 2 : 0;
+    head_sum = sum(a, extra), current_sum = sum(b, extra);
     opposite = q.index == 0 && !seed ? edge.opposite_next : 15;
     opposite_head = q.missing == 1 && !seed ? a.opposite_own : 15;
     predicted = sidesOf(q.angle, q.missing);
-    degree_after = std::min(b.degree_behind, Index{15});
+    degree_after = b.degree_behind & 15;
   }
 
   uint32_t beyondCurrent() const { return current_slots == 1 ? after : 0; }
   uint32_t beyondHead() const { return head_slots == 1 ? before : 0; }
   uint32_t nearest() const { return missing == 1 ? opposite_head : opposite; }
 
-  static uint32_t slots(const Gap& gap) { return std::min(gap.free_slots, Index{7}); }
-  static uint32_t sum(const Gap& gap, int regular) {
-    const int64_t excess = static_cast<int64_t>(gap.met & 0xFFFFFFFF) - regular * static_cast<int64_t>(gap.met >> 32);
-    return static_cast<uint32_t>(std::clamp(excess, int64_t{-7}, int64_t{7}) + 8);
+  static uint32_t slots(const Gap& gap) { return gap.free_slots & 7; }
+  // `extra`: how far what is regular is above 4.
+  [[gnu::always_inline]] static uint32_t sum(const Gap& gap, uint32_t extra) {
+    return (gap.met - extra * (gap.met >> 16)) & 15;
   }
 };
 
@@ -177,7 +179,7 @@ struct FaceFeatures {
   [[gnu::always_inline]] FaceFeatures(const FaceQuestion& q, const History& recent) : history(recent) {
     const Gap &g0 = orNone(q.gap), &g1 = orNone(q.far_gap), &a = orNone(q.head), &b = orNone(q.tail);
     const Gap& prev = orNone(a.prev);
-    known = std::min(q.known_edges, Index{15});
+    known = q.known_edges & 15;
     least = std::min(std::max(Index{3}, q.known_edges + 1), Index{9});
     near = g0.capped, far = g1.capped;
     head = a.capped, tail = b.capped;
@@ -186,10 +188,10 @@ struct FaceFeatures {
     behind = degree(g0), behind_tail = degree(b), behind_head = degree(prev);
     near_predicted = predict(g0), far_predicted = predict(g1);
     dummies = uint32_t{g0.dummy} | uint32_t{g1.dummy} << 1 | uint32_t{a.dummy} << 2 | uint32_t{b.dummy} << 3;
-    mean_sum = (VertexFeatures::sum(a, 4) + VertexFeatures::sum(b, 4)) / 2;
+    mean_sum = (VertexFeatures::sum(a, 0) + VertexFeatures::sum(b, 0)) / 2;
   }
 
-  static uint32_t degree(const Gap& gap) { return std::min(gap.degree_behind, Index{15}); }
+  static uint32_t degree(const Gap& gap) { return gap.degree_behind & 15; }
   // The face takes one of the vertex's slots already.
   static uint32_t predict(const Gap& gap) { return sidesOf(gap.angle, uint64_t{gap.free_slots} + 1); }
 };

@@ -20,8 +20,8 @@ namespace tutte {
 /// Where a new gap is queued among those with as many free slots. Part of the bit stream.
 enum class TieRule : uint8_t { kOldestFirst = 0, kNewestFirst = 1 };
 
-/// 64 bits, and by its type nothing that counters are made of: so compilers know that gaps written leave those alone.
-using Met = unsigned long long;
+/// What counts an edge in the upper half of a number; below, a valence of 4 comes to 0 modulo 16.
+inline constexpr uint32_t kMet = (1u << 16) + 12;
 
 /// All that the walk and its contexts read about a gap stands in one cache line.
 struct alignas(64) Gap {
@@ -38,7 +38,7 @@ struct alignas(64) Gap {
 
   // What contexts want to know of the surroundings, gathered while the region grows, if the statistics ask for it.
   uint32_t angle = 0;  ///< sum over the real faces around it of 1 - 2 / degree, in 1/65536
-  Met met = 0;         ///< of the edges of the umbrella seen by this gap: 2^32 plus the valence at the far end
+  uint32_t met = 0;    ///< of the edges of the umbrella seen by this gap, each: kMet plus the valence at the far end
 
   // Valences, up to 14. Not bytes: compilers let those be anything's.
   uint16_t capped = 0;         ///< the umbrella's

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "codec/borrowed.h"
@@ -14,7 +16,7 @@ namespace tutte {
 
 /// What a MatchModel remembers. Positions up to `past` are those of earlier meshes, so that nothing has to be cleared.
 struct MatchMemory {
-  std::vector<uint8_t> history;
+  std::vector<uint8_t> history;  ///< the symbols, behind eight bytes that are none
   std::vector<Index> positions;
   Index past = 0;
 };
@@ -39,7 +41,7 @@ class MatchModel {
   Index expected() const { return expected_; }
 
   /// How far the match reaches back, in 8 steps; 0 without a match.
-  int lengthClass() const { return kLengthClass[std::min(length_, kLongest)]; }
+  int lengthClass() const { return kLengthClass[length_]; }
 
   /// The slot of the opinion that a decision goes the way the expected symbol says.
   Slot& opinion(bool expected_bit) { return slots_[lengthClass() * 2 + expected_bit]; }
@@ -52,11 +54,11 @@ class MatchModel {
   [[gnu::noinline]] void note(Index symbol) {
     if (size_ == room_) grow();
     history_[size_++] = static_cast<uint8_t>(symbol);
-    key_ = (key_ << 8 | (symbol + 1)) & 0xFFFFFFFFFFFFu;
-    length_ = symbol == expected_ ? std::min(length_ + 1, 65535) : 0;
+    key_ = key_ << 8 | (symbol + 1);
+    length_ = symbol == expected_ ? length_ + (length_ < kLongest) : 0;
     ++position_;
     if (size_ < kLeast) return;
-    Index& latest = positions_[key_ * 0x9E3779B97F4A7C15u >> (64 - kTableBits)];
+    Index& latest = positions_[(key_ << 8 * (8 - kLeast)) * 0x9E3779B97F4A7C15u >> (64 - kTableBits)];
     if (length_ == 0 && latest > past_) find(latest - past_);
     latest = past_ + static_cast<Index>(size_);
     expected_ = length_ == 0 ? kNoSymbol : history_[position_];
@@ -64,25 +66,36 @@ class MatchModel {
 
   [[gnu::noinline]] void grow() {
     std::vector<uint8_t>& history = memory_->history;
-    history.resize(std::max<size_t>({256, history.size(), 2 * size_}));
-    history_ = history.data();
-    room_ = history.size();
+    history.resize(std::max<size_t>({256, history.size(), 2 * size_}), kNoSymbol);
+    history_ = history.data() + kWord;
+    room_ = history.size() - kWord;
   }
 
   static constexpr int kTableBits = 13;
-  static constexpr int kLeast = 6, kMost = 32;
+  static constexpr int kLeast = 6, kMost = 32, kWord = 8;
   static constexpr Index kMostPast = 1u << 30;
 
   void find(Index candidate) {
-    const size_t end = size_;
+    const uint8_t *at = history_ + candidate, *end = history_ + size_;
+    uint64_t differing = wordBefore(at) ^ wordBefore(end);
+    if (differing >> 8 * (kWord - kLeast) != 0) return;
     int length = 0;
-    while (length < kMost && static_cast<Index>(length) < candidate &&
-           history_[candidate - 1 - length] == history_[end - 1 - length]) {
-      ++length;
+    for (; differing == 0 && length < kMost - kWord; length += kWord) {
+      differing = wordBefore(at -= kWord) ^ wordBefore(end -= kWord);
     }
-    if (length < kLeast) return;
     position_ = candidate;
-    length_ = length;
+    length_ = length + std::countl_zero(differing) / 8;
+  }
+
+  // Eight symbols, the last one on top. What comes before the first is none.
+  static uint64_t wordBefore(const uint8_t* end) {
+    uint64_t word = 0;
+    if constexpr (std::endian::native == std::endian::little) {
+      std::memcpy(&word, end - kWord, kWord);
+    } else {
+      for (int i = 1; i <= kWord; ++i) word = word << 8 | end[-i];
+    }
+    return word;
   }
 
   // By the length of the match.

@@ -148,8 +148,9 @@ class Predictor {
   [[gnu::always_inline]] bool mixed(Port& port, Selectors selectors, Slot* match, int match_length, bool value) {
     constexpr int kUsed = kContexts + kMatched;
     const auto inputs = inputsOf<kUsed>(selectors.node, match, std::make_index_sequence<kInputs / 8>());
-    const auto [bit, learns] = decide(port, selectors, inputs, match_length, value);
-    if (!learns) return bit;
+    const int32_t error = decide(port, selectors, inputs, match_length, value);
+    const bool bit = error > 0;
+    if (!isLarge(error)) return bit;
     update<0, kUsed>(selectors.node, match, bit, std::make_index_sequence<8>());
     if constexpr (kUsed > 8) update<8, kUsed>(selectors.node, match, bit, std::make_index_sequence<8>());
     return bit;
@@ -179,38 +180,33 @@ class Predictor {
     ((kFirst + i < kUsed ? slotOf<kFirst + i>(node, match).setWord(words[i]) : void()), ...);
   }
 
-  // What was decided, and whether that was uncertain enough to learn from.
-  struct Decision {
-    bool bit, learns;
-  };
-
-  // Nothing is learned from what was as good as certain, in 1/65536: that takes fewer bytes than learning from all, and
-  // less time.
-  static constexpr uint32_t kLeastError = 1024;
-
-  static bool learnsFrom(bool bit, uint32_t probability) {
-    return (bit ? 65536 - probability : probability) >= kLeastError;
+  // Nothing is learned from what was as good as certain: that takes fewer bytes than learning from all, and less time.
+  // `error`: what the probability of a 1 lacked, in 1/65536.
+  static bool isLarge(int32_t error) {
+    constexpr int32_t kLeast = 1024;
+    return static_cast<uint32_t>(error + (kLeast - 1)) > 2 * (kLeast - 1);
   }
 
+  // Returns the error: above 0 if the decision is a 1, else below.
   template <class Port>
-  [[gnu::always_inline]] Decision decide(Port& port, Selectors selectors, const Inputs<kInputs>& inputs,
-                                         int match_length, bool value) {
+  [[gnu::always_inline]] int32_t decide(Port& port, Selectors selectors, const Inputs<kInputs>& inputs,
+                                        int match_length, bool value) {
     if constexpr (kRich) {
       return decideRich(port, selectors, inputs, match_length, value);
     } else {
       Weights<kInputs>& weights = weights_.by_node[selectors.node];
       const uint32_t mixed = squash(weights.mix(inputs));
-      const bool bit = port.code(mixed, value);
-      if (!learnsFrom(bit, mixed)) return {bit, false};
+      const int32_t error = (port.code(mixed, value) ? 65536 : 0) - static_cast<int32_t>(mixed);
+      if (!isLarge(error)) return error;
       rate_.advance();
-      weights.learn(inputs, rate_.step((bit << 16) - static_cast<int32_t>(mixed)));
-      return {bit, true};
+      weights.learn(inputs, rate_.step(error));
+      return error;
     }
   }
 
   template <class Port>
-  [[gnu::always_inline]] Decision decideRich(Port& port, Selectors selectors, const Inputs<kInputs>& inputs,
-                                             int match_length, bool value) {
+  [[gnu::always_inline]] int32_t decideRich(Port& port, Selectors selectors, const Inputs<kInputs>& inputs,
+                                            int match_length, bool value) {
     Weights<kInputs>& by_node = weights_.by_node[selectors.node];
     Weights<kInputs>& by_situation = weights_.by_situation[selectors.situation];
     Weights<kInputs>& by_match = weights_.by_match[match_length];
@@ -220,7 +216,8 @@ class Predictor {
     const uint32_t mixed = std::clamp((squash(average) + refined + 1) >> 1, 2u, 65534u);
     const bool bit = port.code(mixed, value);
     final_.update(bit);
-    if (!learnsFrom(bit, mixed)) return {bit, false};
+    const int32_t error = (bit << 16) - static_cast<int32_t>(mixed);
+    if (!isLarge(error)) return error;
     rate_.advance();
     const auto learn = [&](Weights<kInputs>& set, int32_t opinion) {
       set.learn(inputs, rate_.step((bit << 16) - static_cast<int32_t>(squash(opinion))));
@@ -228,7 +225,7 @@ class Predictor {
     learn(by_node, first);
     learn(by_situation, second);
     learn(by_match, third);
-    return {bit, true};
+    return error;
   }
 
   struct PlainWeights {

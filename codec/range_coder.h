@@ -78,12 +78,12 @@ class RangeWriter {
     }
   }
 
+  // Once is enough: no part of the interval is less than 2^-16 of it, or one of 2^31.
   void renew() {
-    while (range_ < uint64_t{1} << 32) {
-      for (int shift = 56; shift >= 32; shift -= 8) bytes_.push_back(static_cast<uint8_t>(low_ >> shift));
-      low_ <<= 32;
-      range_ <<= 32;
-    }
+    if (range_ >= uint64_t{1} << 32) return;
+    for (int shift = 56; shift >= 32; shift -= 8) bytes_.push_back(static_cast<uint8_t>(low_ >> shift));
+    low_ <<= 32;
+    range_ <<= 32;
   }
 
   uint64_t low_ = 0;
@@ -140,21 +140,25 @@ class RangeReader {
 
  private:
   uint64_t word() {
-    uint64_t value = 0;
-    if (next_ + 4 <= bytes_.size()) {
-      for (int i = 0; i < 4; ++i) value = value << 8 | bytes_[next_ + i];
-    } else {
-      for (int i = 0; i < 4; ++i) value = value << 8 | (next_ + i < bytes_.size() ? bytes_[next_ + i] : 0);
-    }
+    const size_t at = next_;
     next_ += 4;
+    if (next_ > bytes_.size()) return wordAtEnd(at);
+    const uint8_t* const word = bytes_.data() + at;
+    return static_cast<uint32_t>(word[0]) << 24 | static_cast<uint32_t>(word[1]) << 16 |
+           static_cast<uint32_t>(word[2]) << 8 | static_cast<uint32_t>(word[3]);
+  }
+
+  [[gnu::noinline]] uint64_t wordAtEnd(size_t at) const {
+    uint64_t value = 0;
+    for (size_t i = at; i < at + 4; ++i) value = value << 8 | (i < bytes_.size() ? bytes_[i] : 0);
     return value;
   }
 
+  // Once is enough, as for the writer.
   void renew() {
-    while (range_ < uint64_t{1} << 32) {
-      code_ = code_ << 32 | word();
-      range_ <<= 32;
-    }
+    if (range_ >= uint64_t{1} << 32) return;
+    code_ = code_ << 32 | word();
+    range_ <<= 32;
   }
 
   std::span<const uint8_t> bytes_;

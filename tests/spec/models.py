@@ -245,14 +245,14 @@ class Match:
             return
         if self.length and self.history[self.position] == symbol:
             self.position += 1
-            self.length = min(self.length + 1, 65535)
+            self.length = min(self.length + 1, 64)
         else:
             self.length = 0
         self.history.append(symbol)
         self.key = (self.key << 8 | symbol + 1) % 2**48
         if len(self.history) < 6:
             return
-        place = (self.key * 0x9E3779B97F4A7C15 % 2**64) >> 51
+        place = (self.key * 65536 * 0x9E3779B97F4A7C15 % 2**64) >> 51
         if not self.length and place in self.latest:
             self.find(self.latest[place])
         self.latest[place] = len(self.history)

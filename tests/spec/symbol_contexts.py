@@ -24,7 +24,7 @@ class VertexFeatures:
         head, current, edge = gap(walk.head), gap(walk.current), gap(walk.before_tail)
         after, before = gap(current.next), gap(head.prev)
         regular = 6 if walk.degree == 3 else 4
-        valence, slots = (lambda g: min(g.valence, 14)), (lambda g: min(g.free, 7))
+        valence, slots = (lambda g: min(g.valence, 14)), (lambda g: g.free % 8)
         self.face = 1 if walk.dummy else min(walk.degree, 15)
         self.missing, self.usual = min(walk.missing, 7), usual
         self.h, self.c, self.b, self.a = valence(head), valence(current), valence(before), valence(after)
@@ -33,7 +33,7 @@ class VertexFeatures:
         self.o = edge.opposite_next if walk.index == 0 and walk.before_tail is not None else 15
         self.oh = head.opposite_own if walk.missing == 1 and walk.head is not None else 15
         self.p = sides(quotient(131072 - walk.angle, walk.missing))
-        self.da = min(current.degree_behind, 15)
+        self.da = current.degree_behind % 16
         self.ca, self.hb = (self.a if self.cs == 1 else 0), (self.b if self.hs == 1 else 0)
         self.valences, self.degrees = valences, degrees
 
@@ -63,9 +63,9 @@ class FaceFeatures:
         near, far = gap(start), gap(gap(start).next)
         head, tail = gap(head), gap(tail)
         before = gap(head.prev)
-        valence, slots, degree = (lambda g: min(g.valence, 14)), (lambda g: min(g.free, 7)), (
-            lambda g: min(g.degree_behind, 15))
-        self.known, self.least = min(edges, 15), min(max(3, edges + 1), 9)
+        valence, slots, degree = (lambda g: min(g.valence, 14)), (lambda g: g.free % 8), (
+            lambda g: g.degree_behind % 16)
+        self.known, self.least = edges % 16, min(max(3, edges + 1), 9)
         self.n, self.f, self.h, self.t = valence(near), valence(far), valence(head), valence(tail)
         self.ns, self.hs, self.ts = slots(near), slots(head), slots(tail)
         self.behind, self.bt, self.bh = degree(near), degree(tail), degree(before)

@@ -82,7 +82,7 @@ class Mixed:
         degree, dummy = self.read_face(stream, walk, start, edges, closed)
         if not self.section.degrees_known:
             symbol = 1 if dummy else degree
-            self.degrees = [min(symbol, 255)] + self.degrees[:2]
+            self.degrees = [symbol % 256] + self.degrees[:2]
             if not self.plainly:
                 self.match.add(128 + min(symbol, 100))
         return degree, dummy
@@ -165,7 +165,7 @@ class Mixed:
         situation = face * 4 + (walk.missing > 1) * 2 + (walk.index > 0)
         valence = self.read_valence(stream, usual, situation, walk.head is None, place)
         self.count(face, valence)
-        self.valences = [min(valence, 255)] + self.valences[:2]
+        self.valences = [valence % 256] + self.valences[:2]
         self.match.add(min(valence, 100))
         return valence
 

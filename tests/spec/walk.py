@@ -28,7 +28,7 @@ class Gap:
         self.degree_behind = 0
         # What only the mixed profiles ask for.
         self.dummy = self.opposite_next = self.opposite_own = 0
-        self.neighbours = self.neighbour_valences = self.angle = 0
+        self.surroundings = self.angle = 0
 
     def copy(self):
         gap = Gap()
@@ -36,11 +36,10 @@ class Gap:
         return gap
 
     def excess(self, regular):
-        return max(-7, min(self.neighbour_valences - regular * self.neighbours, 7)) + 8
+        return (self.surroundings - (regular - 4) * (self.surroundings >> 16)) % 16
 
     def meet(self, other):
-        self.neighbours += 1
-        self.neighbour_valences += other.valence
+        self.surroundings = (self.surroundings + 65548 + other.valence) % 2**32
 
 
 def capped(gap):
