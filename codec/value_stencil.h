@@ -209,15 +209,17 @@ class Stencil {
     }
   }
 
-  // In halves; over a triangle's edge, half a side less is added.
+  // At most four. Of three, the last one counts twice.
   Values meanOf(std::span<const Term> terms) const {
-    Values sum{};
+    Values sum{}, last{};
     for (const Term& term : terms) {
       const Vec<C, int32_t>&a = value(term.a), &b = value(term.b), &x = value(term.x);
-      const T beside = 0 - static_cast<T>(term.y);
-      sum = each([&](size_t i) { return sum[i] + 2 * (T{a[i]} + b[i] - x[i]) + ((T{a[i]} - b[i]) & beside); });
+      last = each([&](size_t i) { return T{a[i]} + b[i] - x[i]; });
+      sum = each([&](size_t i) { return sum[i] + last[i]; });
     }
-    return meanOf(sum, kOne / 2, static_cast<uint32_t>(terms.size()));
+    if (terms.size() == 3) sum = each([&](size_t i) { return sum[i] + last[i]; });
+    const int shift = kFraction - static_cast<int>(terms.size() > 1) - static_cast<int>(terms.size() > 2);
+    return each([&](size_t i) { return sum[i] * (T{1} << shift); });
   }
 
   Values meanOf(std::span<const Index> sites) const {
@@ -226,13 +228,8 @@ class Stencil {
       const Vec<C, int32_t>& here = value(site);
       sum = each([&](size_t i) { return sum[i] + here[i]; });
     }
-    return meanOf(sum, kOne, static_cast<uint32_t>(sites.size()));
-  }
-
-  static Values meanOf(const Values& sum, T factor, uint32_t count) {
-    if (count == 1) return each([&](size_t i) { return sum[i] * factor; });
-    if (count == 2) return each([&](size_t i) { return (sum[i] * factor + 1) >> 1; });
-    return each([&](size_t i) { return static_cast<T>(mean(int64_t{sum[i]} * factor, count)); });
+    const auto count = static_cast<uint32_t>(sites.size());
+    return each([&](size_t i) { return static_cast<T>(mean(int64_t{sum[i]} * kOne, count)); });
   }
 
   const Nodes<C>& nodes_;

@@ -193,8 +193,7 @@ void SurroundingsFinder::lookOver(const Faces& faces, std::span<const Fan> fans)
   const auto add = [&](Index a, Index c, Index beyond) __attribute__((always_inline)) {
     const Index x = graph.site(beyond);
     over->a = a, over->b = c, over->x = x;
-    over->y = faces.degree(beyond) == 3;
-    over += x < here;
+    over += (x < here) & (faces.degree(beyond) > 3);
   };
   for (const Fan& fan : fans) {
     forHighestFirst(

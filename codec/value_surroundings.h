@@ -43,9 +43,9 @@ class Surroundings {
   std::span<const Term> across() const { return list(&Begins::across); }
   /// Of large polygons: a, b and x lie in them.
   std::span<const Term> planes() const { return list(&Begins::planes); }
-  /// a + b - x; or, for y = 1, (3 a + b) / 2 - x.
+  /// Over edges of other faces: a + b - x.
   std::span<const Term> over() const { return list(&Begins::over); }
-  /// 2 a - x, b being a, and y 0; only where there are not two others of those from `scaled` on.
+  /// a + b - x, b being a; only where there are not two others of those from `scaled` on.
   std::span<const Term> straight() const { return list(&Begins::straight); }
   /// Round faces of the site, four at most.
   std::span<const Edge> edges() const { return list(&Begins::edges); }
@@ -82,7 +82,7 @@ class SurroundingsFinder {
   }
 
  private:
-  static constexpr int kMostFar = 8, kMostEdges = 4;
+  static constexpr int kMostFar = 3, kMostEdges = 4;
   static constexpr size_t kBatch = 32;          // sites
   static constexpr size_t kBatchCorners = 192;  // their corners, but for those of the last one
   static constexpr size_t kCorners = ValueGraph::kMostCorners;
