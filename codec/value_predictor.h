@@ -91,6 +91,8 @@ class SitePredictor {
   static SurroundingsFinder::Wanted wanted(const Options& options) {
     SurroundingsFinder::Wanted wanted = Guide::wanted(options.kind);
     wanted.far &= !options.fast;
+    wanted.beside =
+        options.components == 3;  // what is far beyond a point's parallelogram says less than what is beside
     return wanted;
   }
 

@@ -197,7 +197,7 @@ void SurroundingsFinder::lookOver(const Faces& faces, std::span<const Fan> fans)
   };
   for (const Fan& fan : fans) {
     forHighestFirst(
-        fan.either(), [&](int bit) __attribute__((always_inline)) {
+        wanted_.beside ? fan.one() : fan.either(), [&](int bit) __attribute__((always_inline)) {
           const size_t side = fan.side(bit);
           const Index prev = sides.corner[side], degree = faces.degree(prev);
           if (degree <= 3) return;

@@ -68,6 +68,7 @@ class SurroundingsFinder {
   struct Wanted {
     bool edges = false;
     bool predictions = true;  ///< all others
+    bool beside = false;      ///< what is far lies only beside faces that have one known side
     bool far = true;  ///< those from beyond the faces of a site, not just where it has no parallelogram, but also
                       ///< where it has one
   };
@@ -82,7 +83,7 @@ class SurroundingsFinder {
   }
 
  private:
-  static constexpr int kMostFar = 3, kMostEdges = 4;
+  static constexpr int kMostFar = 4, kMostEdges = 4;
   static constexpr size_t kBatch = 32;          // sites
   static constexpr size_t kBatchCorners = 192;  // their corners, but for those of the last one
   static constexpr size_t kCorners = ValueGraph::kMostCorners;
@@ -108,6 +109,8 @@ class SurroundingsFinder {
     /// Faces both of whose sides are known, or one.
     uint64_t both() const { return known & known >> 1; }
     uint64_t either() const { return (known | known >> 1) & all(); }
+    /// Just one of whose sides is known.
+    uint64_t one() const { return (known ^ known >> 1) & all(); }
   };
 
   struct Lists {

@@ -109,9 +109,7 @@ class Surroundings:
         m, members = self.m, self.members
         self.spread = [0] * m
         if members:
-            weighed = members + members[2:] if len(members) == 3 else members
-            self.base = [mean(sum(x[i] for x in weighed), len(weighed)) for i in range(m)]
-            self.lean = self.base
+            self.lean = self.base = self.average(members)
         if len(members) > 1:
             self.spread = [max(abs(x[i] - members[0][i]) for x in members) for i in range(m)]
             return
@@ -126,14 +124,17 @@ class Surroundings:
             self.lean = offers[0][1]
             self.spread = [abs(self.lean[i] - self.base[i]) for i in range(m)]
 
+    def average(self, predictions):
+        weighed = predictions + predictions[2:] if len(predictions) == 3 else predictions
+        return [mean(sum(x[i] for x in weighed), len(weighed)) for i in range(self.m)]
+
     def far(self, site):
         graph, known, v, across, straight = self.coder.graph, self.coder.known, self.coder.values, [], []
 
         def look(a, c, degree, y, x):
-            if known(x) and known(c) and len(across) < 8:
-                across.append([(3 * v[a][i] + v[c][i] - 2 * v[x][i]) * 8 if degree == 3 else
-                               (v[a][i] + v[c][i] - v[x][i]) * 16 for i in range(self.m)])
-            if degree > 3 and known(y) and len(straight) < 8:
+            if degree > 3 and known(x) and known(c) and len(across) < 4 and not (self.m == 3 and both):
+                across.append([(v[a][i] + v[c][i] - v[x][i]) * 16 for i in range(self.m)])
+            if degree > 3 and known(y) and len(straight) < 4:
                 straight.append([(2 * v[a][i] - v[y][i]) * 16 for i in range(self.m)])
 
         for corner in graph.corners(site):
@@ -141,6 +142,7 @@ class Surroundings:
                 continue
             n, p = graph.next[corner], graph.prev[corner]
             q = graph.prev[p]
+            both = known(graph.site[n]) and known(graph.site[p])
             a, b, t, u = graph.site[n], graph.site[p], graph.twin[n], graph.twin[q]
             if known(a) and t is not None:
                 look(a, graph.site[graph.next[n]], graph.degree[t], graph.site[graph.next[graph.next[t]]],
@@ -148,5 +150,4 @@ class Surroundings:
             if known(b) and u is not None:
                 look(b, graph.site[q], graph.degree[u], graph.site[graph.prev[u]],
                      graph.site[graph.next[graph.next[u]]])
-        return [(source, [mean(sum(x[i] for x in found), len(found)) for i in range(self.m)])
-                for source, found in ((FACE, across), (STRAIGHT, straight)) if found]
+        return [(source, self.average(found)) for source, found in ((FACE, across), (STRAIGHT, straight)) if found]
