@@ -14,8 +14,10 @@ namespace {
 constexpr Limits kNoLimits{kNone, kNone, kNone};
 
 template <class Statistics>
-Result<WalkedCandidate> walkWith(const Topology& topology, const Candidate& candidate, EncoderMemory& memory) {
+Result<WalkedCandidate> walkWith(const Topology& topology, const Candidate& candidate, EncoderMemory& memory,
+                                 size_t most_bits) {
   RangeWriter port;
+  port.wantAtMost(most_bits / 8 + 8);
   MeshOracle oracle(topology, candidate.components, memory.oracle);
   const SectionHeader& header = candidate.header;
   Script<Statistics, RangeWriter, MeshOracle> script(header, port, oracle, memory.statistics);
@@ -29,6 +31,7 @@ Result<WalkedCandidate> walkWith(const Topology& topology, const Candidate& cand
   walked.on_boundary = std::move(walk).onBoundary();
   walked.dummy_umbrellas = std::move(walk).dummyUmbrellas();
   walked.symbols = std::move(port);
+  walked.symbols.wantAll();
   walked.splits = walk.splits();
   return walked;
 }
@@ -126,10 +129,11 @@ void orderVertices(const Topology& topology, const std::vector<Index>& umbrellas
 
 }  // namespace
 
-Result<WalkedCandidate> walkCandidate(TopologyPair& topologies, const Candidate& candidate, EncoderMemory& memory) {
+Result<WalkedCandidate> walkCandidate(TopologyPair& topologies, const Candidate& candidate, EncoderMemory& memory,
+                                      size_t most_bits) {
   const Topology& topology = topologies.walked(candidate.header.dual);
   return withQuickStatistics(candidate.header, [&]<class Statistics>(std::type_identity<Statistics>) {
-    return walkWith<Statistics>(topology, candidate, memory);
+    return walkWith<Statistics>(topology, candidate, memory, most_bits);
   });
 }
 

@@ -54,8 +54,9 @@ class TopologyPair {
 
 struct EncoderMemory;
 
-/// Codes valences and degrees.
-Result<WalkedCandidate> walkCandidate(TopologyPair& topologies, const Candidate& candidate, EncoderMemory& memory);
+/// Codes valences and degrees. Fails when that takes clearly more than `most_bits`.
+Result<WalkedCandidate> walkCandidate(TopologyPair& topologies, const Candidate& candidate, EncoderMemory& memory,
+                                      size_t most_bits = ~size_t{0});
 
 /// Adds the repairs and makes the section.
 Result<Encoded> finishCandidate(TopologyPair& topologies, WalkedCandidate&& walked, PolygonView mesh);

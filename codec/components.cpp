@@ -36,16 +36,18 @@ uint64_t ringOf(const Topology& topology, Index corner) {
          (!topology.dummy_umbrella.empty() && topology.dummy_umbrella[umbrella]);
 }
 
+// The degree of a corner's face, and whether that is a dummy.
+uint64_t degreeOf(const Topology& topology, Index corner) {
+  const Index f = topology.faces.faceOf(corner);
+  return uint64_t{topology.faces.first[f + 1] - topology.faces.first[f]} << 1 | topology.isDummy(f);
+}
+
 // What the surroundings of an edge look like, the same seen from a mirror if `mirrored`.
 uint64_t signatureOf(const Topology& topology, Index corner, bool mirrored) {
-  const FaceCorners& faces = topology.faces;
-  const auto degree = [&](Index c) {
-    const Index f = faces.faceOf(c);
-    return uint64_t{faces.first[f + 1] - faces.first[f]} << 1 | topology.isDummy(f);
-  };
-  uint64_t from = ringOf(topology, corner), to = ringOf(topology, faces.next(corner));
+  uint64_t from = ringOf(topology, corner), to = ringOf(topology, topology.faces.next(corner));
   if (mirrored) std::swap(from, to);
-  return scramble(scramble(scramble(degree(corner)) + degree(topology.twin[corner])) * 3 + scramble(from) * 5 + to);
+  const uint64_t faces = scramble(degreeOf(topology, corner)) + degreeOf(topology, topology.twin[corner]);
+  return scramble(scramble(faces) * 3 + scramble(from) * 5 + to);
 }
 
 // Grows a correspondence of edges from one pair; the edges of the copy are followed backwards where `mirrored`.
@@ -116,13 +118,11 @@ class Planner {
   ComponentPlan plan(const std::vector<Index>& component, Index number) {
     const FaceCorners& faces = topology_.faces;
     ComponentPlan plan{faces.first[component[0]], kNone};
-    for (const bool mirrored : {false, true}) {
-      if (mirrored && !mirror_) continue;
-      const auto found = originals_.find(fingerprint(component, mirrored));
-      if (found == originals_.end() || !repeat(component, found->second, mirrored, plan)) continue;
-      return plan;
-    }
-    originals_[fingerprint(component, false)] = {number, component.size(), plan.seed};
+    const auto [original, is_new] =
+        originals_.try_emplace(fingerprint(component), Original{number, component.size(), plan.seed});
+    if (is_new || repeat(component, original->second, false, plan)) return plan;
+    if (mirror_ && repeat(component, original->second, true, plan)) return plan;
+    original->second = {number, component.size(), plan.seed};
     return plan;
   }
 
@@ -133,11 +133,19 @@ class Planner {
     Index seed;
   };
 
-  uint64_t fingerprint(const std::vector<Index>& component, bool mirrored) const {
+  // The same for all components that look alike, and for their mirror images.
+  uint64_t fingerprint(const std::vector<Index>& component) const {
     const FaceCorners& faces = topology_.faces;
     uint64_t sum = component.size();
     for (const Index f : component) {
-      for (Index c = faces.first[f]; c < faces.first[f + 1]; ++c) sum += signatureOf(topology_, c, mirrored);
+      const Index first = faces.first[f], end = faces.first[f + 1];
+      const uint64_t degree = scramble(degreeOf(topology_, first));
+      uint64_t from = scramble(ringOf(topology_, end - 1));
+      for (Index c = first; c < end; ++c) {
+        const uint64_t to = scramble(ringOf(topology_, c));
+        sum += scramble(degree + from + to);
+        from = to;
+      }
     }
     return sum;
   }

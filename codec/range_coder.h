@@ -49,7 +49,11 @@ class RangeWriter {
     renew();
   }
 
-  bool overrun() const { return false; }
+  /// From how many bytes on nobody wants the stream: then overrun() says so.
+  void wantAtMost(size_t bytes) { most_bytes_ = bytes; }
+  void wantAll() { most_bytes_ = ~size_t{0}; }
+
+  bool overrun() const { return bytes_.size() > most_bytes_; }
 
   /// Bits of information so far, rounded down.
   size_t bits() const { return 8 * bytes_.size() + 64 - static_cast<size_t>(std::bit_width(range_)); }
@@ -88,6 +92,7 @@ class RangeWriter {
 
   uint64_t low_ = 0;
   uint64_t range_ = ~uint64_t{0};
+  size_t most_bytes_ = ~size_t{0};
   std::vector<uint8_t> bytes_;
 };
 

@@ -30,7 +30,7 @@ class Search {
   Result<WalkedCandidate> run() {
     const size_t corners = std::max<size_t>(1, topologies_.primal().twin.size());
     profile_ = options_.profile ? *options_.profile : profileFor(corners);
-    trials_left_ = trialsFor(options_.effort, corners);
+    trials_left_ = trialsFor(options_.effort, corners, profile_);
     if (const Error error = tryFirst(); error != Error::kNone) return error;
     if (trials_left_ > 0) tryVariants();
     if (trials_left_ > 2 && !best_candidate_.header.degreesKnown()) tryDual();
@@ -46,10 +46,10 @@ class Search {
   }
 
  private:
-  // How often a mesh is walked at most, besides the first time.
-  static size_t trialsFor(int effort, size_t corners) {
+  // How often a mesh is walked at most, besides the first time. Fewer contexts leave more to the walk.
+  static size_t trialsFor(int effort, size_t corners, Profile profile) {
     constexpr size_t kCorners[] = {0, 400'000, 4'000'000, 80'000'000};
-    constexpr size_t kMost[] = {0, 12, 200, 2000};
+    const size_t kMost[] = {0, profile >= Profile::kDefault ? 9u : 12u, 200, 2000};
     effort = std::clamp(effort, 0, 3);
     return std::min(kMost[effort], kCorners[effort] / corners);
   }
@@ -115,7 +115,7 @@ class Search {
   void attempt(Candidate candidate) {
     if (trials_left_ == 0) return;
     --trials_left_;
-    Result<WalkedCandidate> walked = walkCandidate(topologies_, candidate, memory_);
+    Result<WalkedCandidate> walked = walkCandidate(topologies_, candidate, memory_, priceOf(best_));
     if (walked && priceOf(*walked) < priceOf(best_)) keep(std::move(candidate), std::move(*walked));
   }
 
