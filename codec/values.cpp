@@ -170,11 +170,9 @@ bool supports(const ValueSites& sites, const ValueFormat& format) {
   return false;
 }
 
-namespace {
-
-/// The one whose normals are nearest to the directions, whichever side these are on.
-Weighting bestWeighting(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> directions) {
-  if (sites.places.empty()) return Weighting::kEven;
+int8_t findWeighting(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> directions) {
+  if (sites.places.empty()) return 0;
+  // The one whose normals are nearest to the directions, whichever side these are on.
   std::array<int64_t, values::kWeightings> nearness{};
   for (int k = 0; k < values::kWeightings; ++k) {
     const auto normals = values::surfaceNormals(sites.graph, values::Places(sites.places), static_cast<Weighting>(k));
@@ -185,8 +183,10 @@ Weighting bestWeighting(const ValueSites& sites, const ValueFormat& format, std:
       nearness[k] += along * along;
     }
   }
-  return static_cast<Weighting>(std::ranges::max_element(nearness) - nearness.begin());
+  return static_cast<int8_t>(std::ranges::max_element(nearness) - nearness.begin());
 }
+
+namespace {
 
 /// `head` becomes how much was written before the values.
 bool encodeSome(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, Index most,
@@ -208,7 +208,7 @@ bool encodeSome(const ValueSites& sites, const ValueFormat& format, std::span<co
   }
   Weighting weighting = Weighting::kEven;
   if (format.kind == ValueKind::kDirection) {
-    weighting = bestWeighting(sites, format, values);
+    weighting = static_cast<Weighting>(format.weighting < 0 ? findWeighting(sites, format, values) : format.weighting);
     out.byte(static_cast<uint8_t>(weighting));
   }
   head = out.bytes().size();
@@ -226,13 +226,14 @@ bool encodeValues(const ValueSites& sites, const ValueFormat& format, std::span<
   return encodeSome(sites, format, values, kNone, out, head);
 }
 
-std::optional<size_t> estimateValues(const ValueSites& sites, const ValueFormat& format,
-                                     std::span<const int32_t> values, Index most) {
+std::optional<ValueEstimate> estimateValues(const ValueSites& sites, const ValueFormat& format,
+                                            std::span<const int32_t> values, Index most) {
   ByteWriter out;
   size_t head = 0;
   if (!encodeSome(sites, format, values, most, out, head)) return {};
-  const uint64_t total = sites.graph.siteCount(), tried = std::min<uint64_t>(total, most);
-  return head + static_cast<size_t>((out.bytes().size() - head) * total / tried);
+  const uint64_t total = sites.graph.siteCount();
+  if (most >= total) return ValueEstimate{out.bytes().size(), std::move(out).take()};
+  return ValueEstimate{head + static_cast<size_t>((out.bytes().size() - head) * total / most), {}};
 }
 
 Result<std::vector<int32_t>> decodeValues(const ValueSites& sites, const ValueFormat& format,

@@ -35,9 +35,11 @@ struct ValueFormat {
   int32_t max = 0;     ///< values are 0 to max, below 2^27
   ValueProfile profile = ValueProfile::kDefault;
   ValueKind kind = ValueKind::kPlain;
-  bool ranked = false;  ///< (kPlain, kPoints) each component is one of a list: their ranks are coded
-  bool echoes = false;  ///< (not kLabel) values may be those of earlier sites
-  bool copies = false;  ///< (not kLabel) components that repeat earlier ones are predicted from these
+  bool ranked = false;    ///< (kPlain, kPoints) each component is one of a list: their ranks are coded
+  bool echoes = false;    ///< (not kLabel) values may be those of earlier sites
+  bool copies = false;    ///< (not kLabel) components that repeat earlier ones are predicted from these
+  int8_t weighting = -1;  ///< (kDirection, for encoders) what findWeighting() told; below 0: it is asked
+  bool operator==(const ValueFormat&) const = default;
 };
 
 /// A mesh's sites, and where they are.
@@ -54,9 +56,18 @@ bool supports(const ValueSites& sites, const ValueFormat& format);
 /// format is not supported, or has lists that would be too long to be worth it.
 bool encodeValues(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> values, ByteWriter& out);
 
-/// How many bytes encodeValues() would make, told from the first `most` sites in its order; nothing when it would fail.
-std::optional<size_t> estimateValues(const ValueSites& sites, const ValueFormat& format,
-                                     std::span<const int32_t> values, Index most);
+/// What encodeValues() would make.
+struct ValueEstimate {
+  size_t size;                 ///< so many bytes, or as many as a part of the sites lets expect
+  std::vector<uint8_t> bytes;  ///< these; empty when it was only a part
+};
+
+/// Told from the first `most` sites in encodeValues()'s order; nothing when that would fail.
+std::optional<ValueEstimate> estimateValues(const ValueSites& sites, const ValueFormat& format,
+                                            std::span<const int32_t> values, Index most);
+
+/// How the surface's normals are best made for directions: ValueFormat::weighting. O(corners), three times.
+int8_t findWeighting(const ValueSites& sites, const ValueFormat& format, std::span<const int32_t> directions);
 
 /// The values of any bytes, each within [0, max], or an error (kTruncated, kMalformed). All of `bytes` must be used.
 Result<std::vector<int32_t>> decodeValues(const ValueSites& sites, const ValueFormat& format,

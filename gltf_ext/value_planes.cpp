@@ -76,7 +76,7 @@ std::span<const int32_t> placesOf(std::span<const Plane> planes, size_t current,
 }
 
 /// One way to code a plane.
-struct Trial {
+struct Way {
   ValueKind kind;
   bool ranked = false;
 };
@@ -85,7 +85,7 @@ struct Trial {
 /// what suits them, other attributes may change from part to part.
 constexpr Index kMostTried = 8192, kMostTriedPositions = 2048;
 
-std::vector<Trial> trialsFor(PlaneKind kind) {
+std::vector<Way> waysFor(PlaneKind kind) {
   switch (kind) {
     case PlaneKind::kPosition:
       return {{ValueKind::kPoints},
@@ -116,21 +116,52 @@ size_t slownessOf(ValueKind kind) {
   }
 }
 
-/// The one of the formats that takes the fewest bytes for the first `most` sites; the last one can always be had.
-ValueFormat bestOf(const ValueSites& sites, std::span<const ValueFormat> formats, std::span<const int32_t> values,
-                   Index most) {
-  std::optional<ValueFormat> best;
-  size_t least = 0;
-  for (const ValueFormat& format : formats) {
-    const std::optional<size_t> size = estimateValues(sites, format, values, most);
-    if (!size) continue;
-    const size_t price = *size + *size * slownessOf(format.kind) / 256;
-    if (best && price >= least) continue;
-    best = format;
-    least = price;
+/// How one plane may be coded; nothing is coded twice.
+class Trials {
+ public:
+  Trials(const ValueSites& sites, std::span<const int32_t> values) : sites_(sites), values_(values) {}
+
+  /// The one of the formats that takes the fewest bytes for the first `most` sites; the last one can always be had.
+  ValueFormat bestOf(std::span<const ValueFormat> formats, Index most) {
+    std::optional<ValueFormat> best;
+    size_t least = 0;
+    for (const ValueFormat& format : formats) {
+      const std::optional<ValueEstimate>& made = estimate(format, most);
+      if (!made) continue;
+      const size_t price = made->size + made->size * slownessOf(format.kind) / 256;
+      if (best && price >= least) continue;
+      best = format;
+      least = price;
+    }
+    return best.value_or(formats.back());
   }
-  return best.value_or(formats.back());
-}
+
+  /// All sites.
+  std::vector<uint8_t> encode(const ValueFormat& format) {
+    const std::optional<ValueEstimate>& made = estimate(format, kNone);
+    return made ? made->bytes : std::vector<uint8_t>();
+  }
+
+ private:
+  struct Trial {
+    ValueFormat format;
+    Index most;
+    std::optional<ValueEstimate> made;
+  };
+
+  const std::optional<ValueEstimate>& estimate(const ValueFormat& format, Index most) {
+    most = std::min(most, sites_.graph.siteCount());
+    for (const Trial& trial : trials_) {
+      if (trial.format == format && trial.most == most) return trial.made;
+    }
+    trials_.push_back({format, most, estimateValues(sites_, format, values_, most)});
+    return trials_.back().made;
+  }
+
+  const ValueSites& sites_;
+  const std::span<const int32_t> values_;
+  std::vector<Trial> trials_;
+};
 
 /// True when at least one value in 64 has been there before, as far as a small table tells.
 bool repeats(std::span<const int32_t> values, size_t components) {
@@ -161,28 +192,30 @@ std::vector<ValueFormat> withCopies(ValueFormat format, ValueFormat usual) {
 void writePlane(const ValueSites& sites, const Plane& plane, std::span<const int32_t> values, ValueProfile profile,
                 ByteWriter& out) {
   std::vector<ValueFormat> formats;
-  for (const Trial& trial : trialsFor(plane.kind)) {
-    if (trial.kind == ValueKind::kAngular && !hasTriangles(sites.graph)) continue;
-    formats.push_back({plane.components, plane.max, profile, trial.kind, trial.ranked});
+  for (const Way& way : waysFor(plane.kind)) {
+    if (way.kind == ValueKind::kAngular && !hasTriangles(sites.graph)) continue;
+    formats.push_back({plane.components, plane.max, profile, way.kind, way.ranked});
+    ValueFormat& format = formats.back();
+    if (way.kind == ValueKind::kDirection) format.weighting = findWeighting(sites, format, values);
   }
+  Trials trials(sites, values);
   const Index most = plane.kind == PlaneKind::kPosition ? kMostTriedPositions : kMostTried;
-  ValueFormat format = bestOf(sites, formats, values, most);
+  ValueFormat format = trials.bestOf(formats, most);
   if (repeats(values, plane.components)) {
     ValueFormat echoing = format.kind == ValueKind::kLabel ? formats.front() : format;
     echoing.echoes = true;
-    format = bestOf(sites, std::array{echoing, format}, values, most);
+    format = trials.bestOf(std::array{echoing, format}, most);
   }
-  if (!sites.graph.copies().empty()) format = bestOf(sites, withCopies(format, formats.front()), values, kNone);
+  if (!sites.graph.copies().empty()) format = trials.bestOf(withCopies(format, formats.front()), kNone);
   if (profile == ValueProfile::kSmall) {  // where values are very regular, fewer contexts learn faster
     ValueFormat quicker = format;
     quicker.profile = ValueProfile::kDefault;
-    format = bestOf(sites, std::array{quicker, format}, values, kNone);
+    format = trials.bestOf(std::array{quicker, format}, kNone);
   }
-  ByteWriter bytes;
-  encodeValues(sites, format, values, bytes);
+  const std::vector<uint8_t> bytes = trials.encode(format);
   out.byte(headOf(format));
-  out.varint(static_cast<uint32_t>(bytes.bytes().size()));
-  out.append(bytes.bytes());
+  out.varint(static_cast<uint32_t>(bytes.size()));
+  out.append(bytes);
 }
 
 bool readPlane(const ValueSites& sites, const WedgeSites& wedges, ByteReader& in, Plane& plane) {
