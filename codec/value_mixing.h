@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -19,10 +20,11 @@ class MixingCoder {
  public:
   static constexpr bool wantsAll() { return true; }
 
-  MixingCoder() : places_(kStarts[kInputs]), lines_(1) {
+  MixingCoder() : places_(kStarts[kInputs]) {
     Weights<kInputs> initial;
     initial.weight.fill(kInitialWeight);
     weights_.fill(initial);
+    addLine();  // nobody's
   }
 
   template <class Port>
@@ -64,6 +66,7 @@ class MixingCoder {
   }
 
   using Line = std::array<Slot, kBins>;
+  static constexpr size_t kLinesTogether = 64;  // a list that grew would be there twice for a while
 
   // Of all contexts that there are, a mesh meets few: a line is made when its context is first met.
   std::array<Line*, kInputs> linesAt(const std::array<uint32_t, kInputs>& contexts) {
@@ -74,14 +77,14 @@ class MixingCoder {
       places[i] = place;
     }
     std::array<Line*, kInputs> lines;
-    for (size_t i = 0; i < kInputs; ++i) lines[i] = &lines_[places[i]];
+    for (size_t i = 0; i < kInputs; ++i) lines[i] = &(*lines_[places[i] / kLinesTogether])[places[i] % kLinesTogether];
     return lines;
   }
 
   [[gnu::noinline]] uint16_t addLine() {
     static_assert(kStarts[kInputs] < 65536);
-    lines_.emplace_back();
-    return static_cast<uint16_t>(lines_.size() - 1);
+    if (line_count_ % kLinesTogether == 0) lines_.push_back(std::make_unique<std::array<Line, kLinesTogether>>());
+    return static_cast<uint16_t>(line_count_++);
   }
 
   std::array<Line*, kInputs> linesOf(const Expectation& about, int expected) {
@@ -153,7 +156,8 @@ class MixingCoder {
   }
 
   std::vector<uint16_t> places_;  // by context: its line; 0: none yet
-  std::vector<Line> lines_;       // the first one is nobody's
+  std::vector<std::unique_ptr<std::array<Line, kLinesTogether>>> lines_;
+  size_t line_count_ = 0;
   std::array<Weights<kInputs>, 3 * kBins> weights_;
   LearningRate rate_;
   std::array<uint32_t, 3> last_{};  // lengths, by rank
