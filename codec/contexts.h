@@ -177,8 +177,9 @@ struct FaceFeatures {
   History history;
 
   [[gnu::always_inline]] FaceFeatures(const FaceQuestion& q, const History& recent) : history(recent) {
-    const Gap &g0 = orNone(q.gap), &g1 = orNone(q.far_gap), &a = orNone(q.head), &b = orNone(q.tail);
-    const Gap& prev = orNone(a.prev);
+    const bool seed = q.gap == nullptr;
+    const auto at = [seed](const Gap* gap) -> const Gap& { return seed ? kNoGap : *gap; };
+    const Gap &g0 = at(q.gap), &g1 = at(q.far_gap), &a = at(q.head), &b = at(q.tail), &prev = at(a.prev);
     known = q.known_edges & 15;
     least = std::min(std::max(Index{3}, q.known_edges + 1), Index{9});
     near = g0.capped, far = g1.capped;

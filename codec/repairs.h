@@ -56,18 +56,45 @@ class RepairCoder {
  private:
   static constexpr Probability kEven = 32768;
 
-  // A face is flipped like the face behind its first edge, mostly.
   void codeFlips() {
-    std::array<Bit, 3> models;
-    const Index faces = static_cast<Index>(mesh_.face_degrees.size());
-    std::vector<Index> face_of(mesh_.umbrellas.size());
-    mesh_.flipped.resize(faces);
+    mesh_.flipped.resize(mesh_.face_degrees.size());
+    if (port_.code(kEven, areFlippedAlike())) {
+      codeFlipsAlike();
+    } else {
+      codeSingleFlips();
+    }
+  }
+
+  bool isFlipped(Index face) const { return !notes_.flipped.empty() && notes_.flipped[face]; }
+
+  // Is every face flipped like the one before it, unless nothing before it lies behind its first edge? So are whole
+  // components that were turned round.
+  bool areFlippedAlike() const {
     Index corner = 0;
-    for (Index f = 0; f < faces; ++f) {
+    for (Index f = 0; f < notes_.flipped.size(); corner += mesh_.face_degrees[f++]) {
+      if (mesh_.twins[corner] < corner && notes_.flipped[f] != notes_.flipped[f - 1]) return false;
+    }
+    return true;
+  }
+
+  void codeFlipsAlike() {
+    Bit first;
+    Index corner = 0;
+    for (Index f = 0; f < mesh_.flipped.size(); corner += mesh_.face_degrees[f++]) {
+      const bool follows = mesh_.twins[corner] < corner;
+      mesh_.flipped[f] = follows ? mesh_.flipped[f - 1] : first.code(port_, isFlipped(f));
+    }
+  }
+
+  // A face is flipped like the face behind its first edge, mostly.
+  void codeSingleFlips() {
+    std::array<Bit, 3> models;
+    std::vector<Index> face_of(mesh_.umbrellas.size());
+    Index corner = 0;
+    for (Index f = 0; f < mesh_.flipped.size(); ++f) {
       const Index twin = mesh_.twins[corner];
       const int context = twin < corner ? mesh_.flipped[face_of[twin]] : 2;
-      const bool truth = !notes_.flipped.empty() && notes_.flipped[f];
-      mesh_.flipped[f] = models[context].code(port_, truth);
+      mesh_.flipped[f] = models[context].code(port_, isFlipped(f));
       for (const Index end = corner + mesh_.face_degrees[f]; corner < end; ++corner) face_of[corner] = f;
     }
   }

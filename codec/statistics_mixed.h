@@ -116,7 +116,8 @@ class MixedStatistics {
     const uint64_t shared = face | features.missing << 4 | usual << 7;
     const Index expected = match_.expected();
     expected_ = expected < 128 ? expected : MatchModel::kNoSymbol;
-    const int situation = static_cast<int>(face * 4 + (question.missing > 1) * 2 + (question.index > 0));
+    const int situation =
+        Profile::kRich ? static_cast<int>(face * 4 + (question.missing > 1) * 2 + (question.index > 0)) : 0;
     bool is_usual;
     if (vertices_.isSure(keyOf<VertexContext::kSums>(features) | shared << 44)) {
       is_usual = vertices_.codeSure(port, truth == usual);
@@ -142,26 +143,29 @@ class MixedStatistics {
  private:
   static constexpr Index kLongest = 24;
 
+  // Nobody else looks at situations.
+  static int situationAt(int situation, int step) { return Profile::kRich ? situation + 64 * step : 0; }
+
   template <class Port>
-  FaceAnswer codeFace(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {
+  [[gnu::always_inline]] FaceAnswer codeFace(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {
     const Index known = question.closed ? question.known_edges : header_.uniform_degree;
     const bool may_be_dummy = header_.hasDummyFaces() && question.gap != nullptr && !touchesDummy(question);
     plainly_ = false;
     if (known != 0 && !may_be_dummy) return {known, false};
     FaceBounds bounds{known, std::max(header_.leastDegree(), question.known_edges + 1), may_be_dummy};
-    if (!Profile::kUsualDegree || (known == 0 && usual_degree_.of(0) < bounds.least)) {
-      return codeUnknownFace(port, question, truth, bounds);
-    }
     const Index expected = known != 0 ? known : usual_degree_.of(0);
-    bounds.not_plain = plain_.isSure(question, expected, may_be_dummy) && matchAllows(expected);
-    port.about(known == 0 ? Topic::kDegrees : Topic::kHoles);
-    if (bounds.not_plain && plain_.code(port, !truth.dummy && truth.degree == expected)) {
-      if (known == 0) usual_degree_.addUsual(0);
-      plainly_ = true;
-      return {expected, false};
+    const bool may_be_plain = Profile::kUsualDegree && (known != 0 || expected >= bounds.least);
+    if (may_be_plain) {
+      bounds.not_plain = plain_.isSure(question, expected, may_be_dummy) && matchAllows(expected);
+      port.about(known == 0 ? Topic::kDegrees : Topic::kHoles);
+      if (bounds.not_plain && plain_.code(port, !truth.dummy && truth.degree == expected)) {
+        if (known == 0) usual_degree_.addUsual(0);
+        plainly_ = true;
+        return {expected, false};
+      }
     }
     const FaceAnswer answer = codeUnknownFace(port, question, truth, bounds);
-    if (!bounds.not_plain) plain_.note(!answer.dummy && answer.degree == expected);
+    if (may_be_plain && !bounds.not_plain) plain_.note(!answer.dummy && answer.degree == expected);
     return answer;
   }
 
@@ -179,17 +183,19 @@ class MixedStatistics {
 
   // The most frequent degree, if it is possible, is asked for first.
   template <class Port>
-  [[gnu::noinline]] FaceAnswer codeUnknownFace(Port& port, const FaceQuestion& question, const FaceAnswer& truth,
-                                               const FaceBounds& bounds) {
+  [[gnu::noinline]] FaceAnswer codeUnknownFace(Port& port, const FaceQuestion& question, FaceAnswer truth,
+                                               FaceBounds bounds) {
     const FaceFeatures features(question, history_);
     const Index known = bounds.known, least = bounds.least;
     const Index usual = Profile::kUsualDegree ? usual_degree_.of(0) : 0;
     faces_.enter(Profile::Face::keys(features, std::min(usual, Index{15})));
     const Index symbol = match_.expected(), expected = symbol - 128;
     expected_ = symbol >= 128 ? symbol : MatchModel::kNoSymbol;
-    const int situation = static_cast<int>(features.behind * 3 + std::min(features.known, 3u) - (features.known > 0));
+    const int situation =
+        Profile::kRich ? static_cast<int>(features.behind * 3 + std::min(features.known, 3u) - (features.known > 0))
+                       : 0;
     const auto decide = [&](int node, int step, bool matched, bool value) {
-      return this->decide(port, faces_, {node, situation + 64 * step}, matched, value);
+      return this->decide(port, faces_, {node, situationAt(situation, step)}, matched, value);
     };
     port.about(Topic::kDegrees);
     if (known == 0 && usual >= least && !bounds.not_plain &&
@@ -229,7 +235,7 @@ class MixedStatistics {
   template <class Port>
   [[gnu::noinline]] Index codeUnusual(Port& port, Index usual, bool seed, Index truth, Index expected, int situation) {
     const auto decide = [&](int node, int step, bool matched, bool value) {
-      return this->decide(port, vertices_, {node, situation + 64 * step}, matched, value);
+      return this->decide(port, vertices_, {node, situationAt(situation, step)}, matched, value);
     };
     if (decide(1, 1, expected < usual, truth < usual)) {
       for (Index v = usual - 1; v >= 3; --v) {

@@ -117,12 +117,15 @@ def repair(stream, mesh, on_boundary):
 
 
 def read_flips(stream, mesh):
-    flip = [Bit() for _ in range(3)]
+    flip, alike = [Bit() for _ in range(3)], stream.bit(32768)
     face_of, corner = {}, 0
     for face, degree in enumerate(mesh.degrees):
         twin = mesh.twins[corner]
-        context = mesh.flipped[face_of[twin]] if twin is not None and twin < corner else 2
-        mesh.flipped[face] = flip[context].read(stream)
+        follows = twin is not None and twin < corner
+        if alike and follows:
+            mesh.flipped[face] = mesh.flipped[face - 1]
+        else:
+            mesh.flipped[face] = flip[mesh.flipped[face_of[twin]] if follows else 2].read(stream)
         for c in range(corner, corner + degree):
             face_of[c] = face
         corner += degree
