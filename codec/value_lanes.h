@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -45,6 +46,12 @@ inline uint32_t countAbove(Eight low, Eight high, Eight limit) {
   return static_cast<uint32_t>(__builtin_ctz(~static_cast<uint32_t>(_mm_movemask_epi8(above))));
 }
 
+inline void sumFours(int32_t* sum, const int32_t* fours, size_t stride, std::span<const uint32_t> which) {
+  __m128i all = _mm_setzero_si128();
+  for (const uint32_t i : which)
+    all = _mm_add_epi32(all, _mm_load_si128(reinterpret_cast<const __m128i*>(fours + i * stride)));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(sum), all);
+}
 inline void addCross(int32_t* sum, const int32_t* origin, const int32_t* first, const int32_t* second, int shift) {
   const auto load4 = [](const int32_t* from) { return _mm_load_si128(reinterpret_cast<const __m128i*>(from)); };
   const auto from = [&](const int32_t* to) {
@@ -78,6 +85,11 @@ inline uint32_t countAbove(Eight low, Eight high, Eight limit) {
   return static_cast<uint32_t>(__builtin_ctz(~static_cast<uint32_t>(wasm_i8x16_bitmask(above))));
 }
 
+inline void sumFours(int32_t* sum, const int32_t* fours, size_t stride, std::span<const uint32_t> which) {
+  v128_t all = wasm_i32x4_splat(0);
+  for (const uint32_t i : which) all = wasm_i32x4_add(all, wasm_v128_load(fours + i * stride));
+  wasm_v128_store(sum, all);
+}
 inline void addCross(int32_t* sum, const int32_t* origin, const int32_t* first, const int32_t* second, int shift) {
   const auto from = [&](const int32_t* to) {
     const v128_t way = wasm_i32x4_shr(wasm_i32x4_sub(wasm_v128_load(to), wasm_v128_load(origin)), shift);
@@ -127,6 +139,14 @@ inline uint32_t countAbove(const Eight& low, const Eight& high, const Eight& lim
   uint32_t count = 0;
   for (size_t i = 0; i < 8; ++i) count += uint32_t{low[i] > limit[i]} + uint32_t{high[i] > limit[i]};
   return count;
+}
+/// The sum of some fours of numbers, which begin `stride` numbers apart at 16-byte boundaries.
+inline void sumFours(int32_t* sum, const int32_t* fours, size_t stride, std::span<const uint32_t> which) {
+  std::array<int32_t, 4> all{};
+  for (const uint32_t i : which) {
+    for (size_t k = 0; k < 4; ++k) all[k] += fours[i * stride + k];
+  }
+  for (size_t k = 0; k < 4; ++k) sum[k] = all[k];
 }
 /// Adds, modulo 2^32, the cross product of two vectors of three components, all at 16-byte boundaries with a fourth
 /// number behind them: the ways from `origin`, shifted right until they fit into 16 bits.

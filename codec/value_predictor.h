@@ -60,7 +60,7 @@ class SitePredictor {
   void code(std::span<int32_t> values) {
     const Surroundings around = finder_.next();
     const std::span<int32_t> value = values.subspan(size_t{around.site()} * count_, static_cast<size_t>(count_));
-    stencil_.gather(around, last_, tangent_);
+    stencil_.gather(around, wanted_, tangent_);
     guide_.refine(around, stencil_);
     estimateScale();
     if (copies_ && copies_->look(around.site(), stencil_.base)) followOriginal();
@@ -69,14 +69,13 @@ class SitePredictor {
       pick();
       codeComponents();
     }
-    last_ = wanted_;
     if constexpr (!Port::kWriting) {
       store(value);
     }
-    nodes_.add({last_, errors_});
-    guide_.learn(around.site(), last_);
+    nodes_.add({wanted_, errors_});
+    guide_.learn(around.site(), wanted_);
     if (echoes_) echoes_->learn(around.site());
-    if (copies_) copies_->learn(last_);
+    if (copies_) copies_->learn(wanted_);
     adaptTypicalError();
   }
 
@@ -101,9 +100,9 @@ class SitePredictor {
   // Three are the usual number.
   void store(std::span<int32_t> value) const {
     if (C == 4 && count_ == 3) [[likely]] {
-      for (size_t i = 0; i < 3; ++i) value[i] = last_[i];
+      for (size_t i = 0; i < 3; ++i) value[i] = wanted_[i];
     } else {
-      for (int i = 0; i < width(); ++i) value[i] = last_[i];
+      for (int i = 0; i < width(); ++i) value[i] = wanted_[i];
     }
   }
 
@@ -155,7 +154,9 @@ class SitePredictor {
   }
 
   void codeComponents() {
-    if constexpr (C == 4) plane_.turn(stencil_.normal);
+    if constexpr (C == 4) {
+      if (tangent_) plane_.turn(stencil_.normal);
+    }
     lookAhead();
     residuals_.withCoder([&](auto&& coder) { codeComponents(coder); });
   }
@@ -292,7 +293,6 @@ class SitePredictor {
   const bool tangent_;
   bool damaged_ = false;
   int32_t typical_error_ = 64;
-  Vec<C, int32_t> last_{};
 
   // Of the current site.
   Vec<C, int32_t> wanted_{}, near_error_{}, errors_{};  // `wanted_` is the value

@@ -86,14 +86,16 @@ class Stencil {
   const Vec<C, int32_t>& value(Index site) const { return nodes_[site].value; }
 
   void sumErrors(std::span<const Index> around) {
-    Values errors{};
-    const Nodes<C>& nodes = nodes_;
-    for (const Index site : around) {
-      const Node<C>& node = nodes[site];
-      errors = each([&](size_t i) { return errors[i] + node.error[i]; });
-    }
     neighbours = static_cast<int32_t>(around.size());
-    error_sum = errors;
+    if constexpr (C == 4 && sizeof(T) == 4) {
+      lanes::sumFours(error_sum.data(), nodes_[0].error.data(), sizeof(Node<C>) / sizeof(int32_t), around);
+    } else {
+      error_sum.fill(0);
+      for (const Index site : around) {
+        const Vec<C, int32_t>& error = nodes_[site].error;
+        error_sum = each([&](size_t i) { return error_sum[i] + error[i]; });
+      }
+    }
   }
 
   // Parallelograms within polygons are better than those across edges.
