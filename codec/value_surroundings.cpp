@@ -185,7 +185,7 @@ void SurroundingsFinder::addEdges(const Faces& faces, size_t side) {
 
 // Over the edges that are opposite or beside, from a neighbour a to c; x lies beyond c. Weaker than what is within.
 template <class Faces>
-void SurroundingsFinder::lookOver(const Faces& faces, std::span<const Fan> fans) {
+[[gnu::always_inline]] inline void SurroundingsFinder::lookOver(const Faces& faces, std::span<const Fan> fans) {
   const ValueGraph& graph = graph_;
   const Index here = site_;
   const Sides& sides = lists_->sides;
