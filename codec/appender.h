@@ -25,7 +25,7 @@ class Appender {
 
   Index size() const { return static_cast<Index>(size_); }
 
-  void add(Index value) {
+  [[gnu::always_inline]] void add(Index value) {
     if (size_ == room_) grow();
     data_[size_++] = value;
   }

@@ -55,13 +55,16 @@ class MatchModel {
     if (size_ == room_) grow();
     history_[size_++] = static_cast<uint8_t>(symbol);
     key_ = key_ << 8 | (symbol + 1);
-    length_ = symbol == expected_ ? length_ + (length_ < kLongest) : 0;
-    ++position_;
-    if (size_ < kLeast) return;
-    Index& latest = positions_[(key_ << 8 * (8 - kLeast)) * 0x9E3779B97F4A7C15u >> (64 - kTableBits)];
-    if (length_ == 0 && latest > past_) find(latest - past_);
-    latest = past_ + static_cast<Index>(size_);
-    expected_ = length_ == 0 ? kNoSymbol : history_[position_];
+    Index& place = positions_[(key_ << 8 * (8 - kLeast)) * 0x9E3779B97F4A7C15u >> (64 - kTableBits)];
+    const Index latest = place;
+    place = past_ + static_cast<Index>(size_);
+    if (symbol == expected_) {
+      length_ += length_ < kLongest;
+      expected_ = history_[++position_];
+    } else {
+      length_ = 0;
+      expected_ = latest > past_ && find(latest - past_) ? history_[position_] : kNoSymbol;
+    }
   }
 
   [[gnu::noinline]] void grow() {
@@ -75,16 +78,17 @@ class MatchModel {
   static constexpr int kLeast = 6, kMost = 32, kWord = 8;
   static constexpr Index kMostPast = 1u << 30;
 
-  void find(Index candidate) {
+  bool find(Index candidate) {
     const uint8_t *at = history_ + candidate, *end = history_ + size_;
     uint64_t differing = wordBefore(at) ^ wordBefore(end);
-    if (differing >> 8 * (kWord - kLeast) != 0) return;
+    if (differing >> 8 * (kWord - kLeast) != 0) return false;
     int length = 0;
     for (; differing == 0 && length < kMost - kWord; length += kWord) {
       differing = wordBefore(at -= kWord) ^ wordBefore(end -= kWord);
     }
     position_ = candidate;
     length_ = length + std::countl_zero(differing) / 8;
+    return true;
   }
 
   // Eight symbols, the last one on top. What comes before the first is none.

@@ -119,7 +119,8 @@ class MixedStatistics {
     const int situation =
         Profile::kRich ? static_cast<int>(face * 4 + (question.missing > 1) * 2 + (question.index > 0)) : 0;
     bool is_usual;
-    if (vertices_.isSure(keyOf<VertexContext::kSums>(features) | shared << 44)) {
+    const bool is_sure = vertices_.isSure(keyOf<VertexContext::kSums>(features) | shared << 44);
+    if (is_sure) {
       is_usual = vertices_.codeSure(port, truth == usual);
       if (!is_usual) vertices_.enter(Profile::Vertex::keys(features, shared));
       if (!is_usual && expected == usual) expected_ = MatchModel::kNoSymbol;
@@ -136,7 +137,7 @@ class MixedStatistics {
       usual_.add(face, valence);
     }
     if (Profile::kHistory) history_.addValence(valence);
-    match_.add(std::min(valence, Index{100}));
+    if (Profile::kRich || !is_sure || !is_usual) match_.add(std::min(valence, Index{100}));
     return valence;
   }
 
@@ -268,7 +269,7 @@ class MixedStatistics {
   }
 
   static bool touchesDummy(const FaceQuestion& question) {
-    return question.gap->dummy || question.far_gap->dummy || question.head->dummy || question.tail->dummy;
+    return question.gap->dummy | question.far_gap->dummy | question.head->dummy | question.tail->dummy;
   }
 
   const SectionHeader& header_;

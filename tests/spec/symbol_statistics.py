@@ -166,17 +166,20 @@ class Mixed:
         valence = self.read_valence(stream, usual, situation, walk.head is None, place)
         self.count(face, valence)
         self.valences = [valence % 256] + self.valences[:2]
-        self.match.add(min(valence, 100))
+        if not self.surely:
+            self.match.add(min(valence, 100))
         return valence
 
     def read_first(self, stream, usual, decide, place):
         """Is it the usual valence? Where it was so often enough in a row, that is nearly certain."""
+        self.surely = False
         if place is None:
             return decide(0, 0, lambda s: s == usual)
         run = self.runs.get(place, 0)
         if run >= self.sure:
             answer = stream.bit(65536 - 65536 // (run + 2))
             self.contradicted = not answer and self.match.expected() == usual
+            self.surely = answer and self.sure == 15
         else:
             answer = decide(0, 0, lambda s: s == usual)
         self.runs[place] = min(run + 1, 16383) if answer else run // 8
