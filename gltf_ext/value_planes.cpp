@@ -106,10 +106,11 @@ bool hasTriangles(const ValueGraph& graph) {
   return false;
 }
 
-/// How many 256ths more bytes another kind may take that is quicker.
-size_t slownessOf(ValueKind kind) {
-  switch (kind) {
-    case ValueKind::kPoints: return 1;  // a tenth more time than plain
+/// How many 128ths more bytes another kind may take that is quicker.
+size_t slownessOf(const ValueFormat& format) {
+  if (format.profile == ValueProfile::kSmall) return 0;
+  switch (format.kind) {
+    case ValueKind::kPoints: return 1;  // an eighth more time than plain
     case ValueKind::kAngular: return 2;
     default: return 0;
   }
@@ -127,7 +128,7 @@ class Trials {
     for (const ValueFormat& format : formats) {
       const std::optional<ValueEstimate>& made = estimate(format, most);
       if (!made) continue;
-      const size_t price = made->size + made->size * slownessOf(format.kind) / 256;
+      const size_t price = made->size + made->size * slownessOf(format) / 128;
       if (best && price >= least) continue;
       best = format;
       least = price;
