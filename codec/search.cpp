@@ -49,7 +49,7 @@ class Search {
   // How often a mesh is walked at most, besides the first time. Fewer contexts leave more to the walk.
   static size_t trialsFor(int effort, size_t corners, Profile profile) {
     constexpr size_t kCorners[] = {0, 400'000, 4'000'000, 80'000'000};
-    const size_t kMost[] = {0, profile >= Profile::kDefault ? 9u : 12u, 200, 2000};
+    const size_t kMost[] = {0, profile >= Profile::kDefault ? 8u : 11u, 200, 2000};
     effort = std::clamp(effort, 0, 3);
     return std::min(kMost[effort], kCorners[effort] / corners);
   }
@@ -121,7 +121,8 @@ class Search {
 
   void tryVariants() {
     attempt(withTie(best_candidate_, other(best_candidate_.header.tie)));
-    if (best_candidate_.header.match) {
+    // A match saves next to nothing where it is not worth having, but some hundred trials have time for that.
+    if (best_candidate_.header.match && options_.effort >= 2) {
       Candidate unmatched = best_candidate_;
       unmatched.header.match = false;
       attempt(std::move(unmatched));
@@ -139,7 +140,7 @@ class Search {
   void tryDual() {
     const Candidate dual = candidateFor(true, planComponents(topologies_.walked(true), repeatsFor(true)));
     attempt(dual);
-    attempt(withTie(dual, other(dual.header.tie)));
+    if (best_candidate_.header.dual) attempt(withTie(dual, other(dual.header.tie)));
   }
 
   static TieRule other(TieRule tie) {
