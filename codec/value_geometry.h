@@ -23,13 +23,18 @@ TUTTE_TABLE std::array<uint16_t, 256> kRoots = madeTable([] {
   return roots;
 });
 
+/// sqrt(x) to some fourteen binary digits, for x below 2^62; from above, so that Newton's steps fall.
+inline int64_t nearRoot(uint64_t x) {
+  const int half = std::max(0, (static_cast<int>(std::bit_width(x)) - 7) >> 1);
+  const uint64_t root = ((uint64_t{kRoots[x >> 2 * half]} << half) >> 4) + 1;
+  return static_cast<int64_t>((root + x / root) >> 1);
+}
+
 /// floor(sqrt(x)) for x below 2^62.
 inline int64_t squareRoot(uint64_t x) {
-  // From above, Newton's steps fall until they reach the root: twice from seven digits is enough for x below 2^48.
-  const int half = std::max(0, (static_cast<int>(std::bit_width(x)) - 7) >> 1);
-  uint64_t root = ((uint64_t{kRoots[x >> 2 * half]} << half) >> 4) + 1;
-  root = (root + x / root) >> 1;
-  if (half > 20) root = (root + x / root) >> 1;
+  auto root = static_cast<uint64_t>(nearRoot(x));
+  // A second step is enough for x below 2^48.
+  if (x >= uint64_t{1} << 48) root = (root + x / root) >> 1;
   root = (root + x / root) >> 1;
   return static_cast<int64_t>(root - (root * root > x));
 }

@@ -116,17 +116,20 @@ class TexcoordGuide {
     for (size_t i = 0; i < 3 && shift > 0; ++i) edge[i] >>= shift, leg[i] >>= shift;
     const int64_t square = dot(edge, edge), along = dot(edge, leg);
     if (square == 0) return;
-    const int64_t across = squareRoot(static_cast<uint64_t>(dot(leg, leg) * square - along * along));
+    // Parts of the edge, in 1/2^20; neither product reaches 2^61, since along and across are at most |edge| |leg|.
+    const int64_t inverse = (int64_t{1} << 45) / square;
+    const int64_t across = nearRoot(static_cast<uint64_t>(dot(leg, leg) * square - along * along));
+    const int64_t forth = along * inverse >> 25,
+                  aside = (turnAt(side.from, side.to) < 0 ? -across : across) * inverse >> 25;
     const Vec<C, int32_t>&from = nodes_[side.from].value, &to = nodes_[side.to].value;
     const int64_t dx = int64_t{to[0]} - from[0], dy = int64_t{to[1]} - from[1];
-    const int64_t height = turnAt(side.from, side.to) < 0 ? -across : across;
     Vec<C, int32_t>& member = members_[count_];
     const auto place = [&](int32_t start, int64_t step) {
-      const int64_t x = (int64_t{start} << kFraction) + step * (1 << kFraction) / square;
+      const int64_t x = (int64_t{start} << kFraction) + ((step + (1 << (19 - kFraction))) >> (20 - kFraction));
       return static_cast<int32_t>(std::clamp(x, -limit_, 2 * limit_));
     };
-    member[0] = place(from[0], along * dx - height * dy);
-    member[1] = place(from[1], along * dy + height * dx);
+    member[0] = place(from[0], forth * dx - aside * dy);
+    member[1] = place(from[1], forth * dy + aside * dx);
     if (count_++ == 0) {
       edge_ = side.from;
       edge_step_ = {dx, dy};

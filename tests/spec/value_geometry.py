@@ -2,7 +2,7 @@
 from math import isqrt
 
 from models import clamp
-from value_models import bit_length, cut
+from value_models import bit_length
 
 BY_ANGLE, BY_AREA = 1, 2
 
@@ -59,6 +59,13 @@ def distance(a, b):
     return min(abs(a[0] - b[0]) + abs(a[1] - b[1]), 2**20)
 
 
+def near_root(x):
+    half = max(bit_length(x) - 7 >> 1, 0)
+    begin = (x >> 2 * half) + 1
+    first = ((isqrt(256 * begin - 1) + 1 << half) >> 4) + 1
+    return first + x // first >> 1
+
+
 class Textures:
     def __init__(self, coder, places):
         self.coder, self.places, self.limit = coder, places, coder.max << 4
@@ -105,13 +112,14 @@ class Textures:
         square, along = dot(edge, edge), dot(edge, leg)
         if square == 0:
             return
-        height = isqrt(dot(leg, leg) * square - along * along)
+        height = near_root(dot(leg, leg) * square - along * along)
         if (self.turns.get(start) or self.turns.get(end) or self.last_turn) < 0:
             height = -height
         origin = self.coder.values[start]
         dx, dy = minus(self.coder.values[end], origin)
-        steps = along * dx - height * dy, along * dy + height * dx
-        self.members.append([clamp(16 * origin[i] + cut(16 * steps[i], square), -self.limit, 2 * self.limit)
+        forth, aside = (x * (2**45 // square) >> 25 for x in (along, height))
+        steps = forth * dx - aside * dy, forth * dy + aside * dx
+        self.members.append([clamp(16 * origin[i] + (steps[i] + 2**15 >> 16), -self.limit, 2 * self.limit)
                              for i in range(2)])
         if self.first is None:
             self.first = origin, dx, dy
