@@ -98,7 +98,7 @@ class DirectionGuide {
     inward_ = count > 0 ? 2 * inward > count : last_inward_;
     if (inward_) turnRound();
     predict(sum, normals, count, stencil.base);
-    if (count > 0 || here_ != SurfaceNormal{}) choose(errors, stencil);
+    if (count > 0 || !isZero(here_)) choose(errors, stencil);
   }
 
   void learn(Index, const Vec<C, int32_t>& value) {
@@ -126,6 +126,12 @@ class DirectionGuide {
     std::array<int32_t, kCandidates> errors{};
   };
 
+  // In one step, where comparing arrays would be a call.
+  template <class Number>
+  static bool isZero(const std::array<Number, 3>& v) {
+    return (v[0] | v[1] | v[2]) == 0;
+  }
+
   void turnRound() {
     for (int16_t& x : here_) x = static_cast<int16_t>(-x);
   }
@@ -133,14 +139,14 @@ class DirectionGuide {
   void predict(const std::array<int32_t, 3>& sum, const std::array<int32_t, 3>& normals, int32_t count,
                const Vec<C, int32_t>& fallback) {
     Vector3 mean_direction{sum[0], sum[1], sum[2]}, deviating{here_[0], here_[1], here_[2]};
-    bases_[kSurface] = project(here_ == SurfaceNormal{} ? mean_direction : deviating, fallback);
+    bases_[kSurface] = project(isZero(here_) ? mean_direction : deviating, fallback);
     for (int i = 0; i < 3 && count > 0; ++i) deviating[i] += mean(sum[i] - normals[i], static_cast<uint32_t>(count));
     bases_[kDeviating] = project(deviating, fallback);
     bases_[kNeighbourMean] = count > 0 ? project(mean_direction, fallback) : bases_[kDeviating];
   }
 
   Vec<C, int32_t> project(const Vector3& direction, const Vec<C, int32_t>& fallback) const {
-    if (direction == Vector3{}) return fallback;
+    if (isZero(direction)) return fallback;
     const auto [s, t] = toOctahedron(direction, centre_, kFraction);
     return {static_cast<int32_t>(s), static_cast<int32_t>(t)};
   }
