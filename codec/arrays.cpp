@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <span>
 
 #include "codec/polygon_table.h"
 #include "codec/start_chain.h"
@@ -136,6 +138,29 @@ class TriangleWriter {
   std::vector<uint8_t> seen_;  ///< per corner of a face
 };
 
+/// The faces themselves as triangles, in one group. Nothing when some triangle starts with an edge of no length: with
+/// all others, StartChain takes the first corner whose wedge is not that of the next start, from the last one back.
+std::optional<TriangleArray> trianglesThemselves(const ArraySource& mesh) {
+  const std::span<const Index> wedges = mesh.wedges.empty() ? mesh.polygons.corners : mesh.wedges;
+  TriangleArray array;
+  array.values.resize(wedges.size());
+  Index after = kNone;
+  for (size_t first = wedges.size(); first > 0;) {
+    first -= 3;
+    const Index a = wedges[first], b = wedges[first + 1], c = wedges[first + 2];
+    if (a == b) return std::nullopt;
+    Index* const out = &array.values[first];
+    const bool turned = a == after;
+    out[0] = turned ? b : a;
+    out[1] = turned ? c : b;
+    out[2] = turned ? a : c;
+    after = out[0];
+  }
+  array.group_starts = {0, static_cast<Index>(wedges.size())};
+  array.ngon_encoding = {1};
+  return array;
+}
+
 /// What there is of each polygon in an array.
 enum class Listed { kIndexOffsets, kLoops, kLoopOffsets, kDegrees };
 
@@ -197,6 +222,10 @@ DerivedArray listed(const ArraySource& mesh, Listed what) {
 }  // namespace
 
 TriangleArray triangleIndices(const ArraySource& mesh) {
+  const bool one_group = mesh.group_count == 1 && mesh.groups.empty() && mesh.ring_owners.empty();
+  if (one_group && mesh.triangulation.counts.empty()) {
+    if (auto array = trianglesThemselves(mesh)) return *std::move(array);
+  }
   const PolygonOrder order(mesh);
   TriangleWriter writer(mesh);
   TriangleArray array;

@@ -25,7 +25,7 @@ class AnyStatistics {
   }
 
   template <class Port>
-  FaceAnswer face(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {
+  [[gnu::noinline]] FaceAnswer face(Port& port, const FaceQuestion& question, const FaceAnswer& truth) {
     return ask([&](auto& statistics) { return statistics.face(port, question, truth); });
   }
 

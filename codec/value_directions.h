@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "codec/apart.h"
 #include "codec/value_geometry.h"
 #include "codec/value_guides.h"
 #include "codec/value_stencil.h"
@@ -80,7 +81,7 @@ class DirectionGuide {
     if (!places.empty()) surface_ = surfaceNormals(graph, Places(places), weighting);
   }
 
-  void refine(const Surroundings& around, Stencil<C, int32_t>& stencil) {
+  TUTTE_APART void refine(const Surroundings& around, Stencil<C, int32_t>& stencil) {
     std::array<int32_t, kCandidates> errors{};
     std::array<int32_t, 3> sum{}, normals{};
     const auto count = static_cast<int32_t>(around.neighbours().size());

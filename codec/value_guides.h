@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "codec/apart.h"
 #include "codec/value_geometry.h"
 #include "codec/value_stencil.h"
 #include "codec/values.h"
@@ -70,7 +71,7 @@ class TexcoordGuide {
                 Weighting)
       : nodes_(nodes), places_(places), states_(graph.siteCount()), limit_(int64_t{max} << kFraction) {}
 
-  void refine(const Surroundings& around, Stencil<C, int32_t>& stencil) {
+  TUTTE_APART void refine(const Surroundings& around, Stencil<C, int32_t>& stencil) {
     count_ = 0;
     int64_t here_error = 0, stencil_error = 0;
     for (const Index neighbour : around.neighbours()) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "codec/apart.h"
 #include "codec/value_copies.h"
 #include "codec/value_echoes.h"
 #include "codec/value_graph.h"
@@ -57,7 +58,7 @@ class SitePredictor {
   }
 
   /// Codes the value of the next site; a writer takes it from `values`, which has all sites', a reader stores it there.
-  void code(std::span<int32_t> values) {
+  TUTTE_APART void code(std::span<int32_t> values) {
     const Surroundings around = finder_.next();
     const std::span<int32_t> value = values.subspan(size_t{around.site()} * count_, static_cast<size_t>(count_));
     stencil_.gather(around, wanted_, tangent_);
@@ -185,7 +186,7 @@ class SitePredictor {
 
   // Unrolled, except where a program's size counts.
   template <class Coder>
-  void codeComponents(Coder& coder) {
+  TUTTE_APART void codeComponents(Coder& coder) {
     SoFar so_far;
 #if defined(TUTTE_COMPACT)
     for (size_t place = 0; place < static_cast<size_t>(width()); ++place) codeComponent(coder, place, so_far);

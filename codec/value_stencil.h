@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "codec/apart.h"
 #include "codec/value_angles.h"
 #include "codec/value_lanes.h"
 #include "codec/value_nodes.h"
@@ -34,7 +35,7 @@ class Stencil {
         normal_shift_(std::max(0, static_cast<int>(std::bit_width(static_cast<uint32_t>(max))) - 14)) {}
 
   /// `last` is used where nothing is known around the site.
-  void gather(const Surroundings& around, const Vec<C, int32_t>& last, bool want_normal) {
+  TUTTE_APART void gather(const Surroundings& around, const Vec<C, int32_t>& last, bool want_normal) {
     sumErrors(around.neighbours());
     normal.fill(0);
     if constexpr (C == 4) {
