@@ -15,6 +15,7 @@
 #include "codec/value_model.h"
 #include "codec/value_picks.h"
 #include "codec/value_residuals.h"
+#include "codec/value_scale.h"
 #include "codec/value_stencil.h"
 #include "codec/value_tables.h"
 #include "codec/value_tangent.h"
@@ -50,7 +51,7 @@ class SitePredictor {
         guide_(graph, nodes_, places, options.max, options.kind, options.weighting),
         residuals_(residuals),
         count_(options.components),
-        part_(count_ == 3 ? 21845 : 65536 / count_),
+        scale_(count_),
         max_(options.max),
         tangent_(options.points() && !options.fast) {
     if (options.echoes) echoes_.emplace(graph, nodes_, count_);
@@ -63,7 +64,7 @@ class SitePredictor {
     const std::span<int32_t> value = values.subspan(size_t{around.site()} * count_, static_cast<size_t>(count_));
     stencil_.gather(around, wanted_, tangent_);
     guide_.refine(around, stencil_);
-    estimateScale();
+    scale_.estimate(stencil_.neighbours, stencil_.error_sum);
     if (copies_ && copies_->look(around.site(), stencil_.base)) followOriginal();
     if constexpr (Port::kWriting) std::ranges::copy(value, wanted_.begin());
     if (!echo(around.site())) {
@@ -77,7 +78,7 @@ class SitePredictor {
     guide_.learn(around.site(), wanted_);
     if (echoes_) echoes_->learn(around.site());
     if (copies_) copies_->learn(wanted_);
-    adaptTypicalError();
+    scale_.adapt(errors_);
   }
 
   /// True when a value left [0, max]: the bytes are damaged. Such values are clamped.
@@ -85,14 +86,13 @@ class SitePredictor {
 
  private:
   using Values = Vec<C, T>;
-  static constexpr size_t kLanes = C;  // those that are not used stay 0
   static constexpr T kOne = 1 << kFraction;
 
   static SurroundingsFinder::Wanted wanted(const Options& options) {
     SurroundingsFinder::Wanted wanted = Guide::wanted(options.kind);
     wanted.far &= !options.fast;
-    wanted.beside =
-        options.components == 3;  // what is far beyond a point's parallelogram says less than what is beside
+    // What is far beyond a point's parallelogram says less than what is beside.
+    wanted.beside = options.components == 3;
     return wanted;
   }
 
@@ -120,28 +120,9 @@ class SitePredictor {
     return true;
   }
 
-  // From the errors at the known neighbours.
-  void estimateScale() {
-    const int32_t count = stencil_.neighbours;
-    if (count == 0) {
-      near_error_.fill(typical_error_);
-      all_error_ = typical_error_;
-      return;
-    }
-    const uint64_t reciprocal = kReciprocal[count];
-    near_error_ = eachOf<C, int32_t>([&](size_t i) {
-      return static_cast<int32_t>(static_cast<uint32_t>(stencil_.error_sum[i]) * reciprocal >> 16);
-    });
-    int32_t sum = 0;
-    for (size_t i = 0; i < kLanes; ++i) sum += near_error_[i];
-    all_error_ = perComponent(sum);
-    if (count == 1) all_error_ = (all_error_ + typical_error_) >> 1;
-  }
-
   void followOriginal() {
     stencil_.replace(copies_->prediction());
-    all_error_ = std::min(copies_->scale(width()), kLargestError);
-    near_error_.fill(all_error_);
+    scale_.set(std::min(copies_->scale(width()), kLargestError));
   }
 
   // One parallelogram instead of the average.
@@ -164,12 +145,13 @@ class SitePredictor {
 
   // What expectations of all components need.
   void lookAhead() {
-    const int32_t all = all_error_, several = several_;
+    const int32_t all = scale_.all(), several = several_;
+    const Vec<C, int32_t>& near = scale_.near();
     const Values& spread = stencil_.spread;
     spread_ = eachOf<C, int32_t>([&](size_t i) {
       return static_cast<int32_t>(sizeof(T) == 4 ? spread[i] : std::min<T>(spread[i], kMostSpread));
     });
-    const auto usual = eachOf<C, int32_t>([&](size_t i) { return all + near_error_[i]; });
+    const auto usual = eachOf<C, int32_t>([&](size_t i) { return all + near[i]; });
     share_ = eachOf<C, int32_t>([&](size_t i) { return usual[i] + ((4 * spread_[i]) & several); });
     first_usual_ = usual[plane_.component(0)];
     if (plane_.bent()) {
@@ -212,7 +194,7 @@ class SitePredictor {
     const bool corrected = place == 2 && plane_.bent();
     if (corrected) {
       const uint32_t situation = source() * 2 + (stencil_.member_count > 1);
-      prediction += static_cast<T>(plane_.correction(so_far.first, so_far.second, all_error_, situation));
+      prediction += static_cast<T>(plane_.correction(so_far.first, so_far.second, scale_.all(), situation));
     }
     // Turned round, where values are likelier below the prediction.
     const T down = coder.wantsAll() ? 0 : downwards(side_[i], prediction);
@@ -246,7 +228,7 @@ class SitePredictor {
   [[gnu::always_inline]] Expectation expect(size_t i, size_t place, const SoFar& so_far, T prediction,
                                             uint32_t fraction, bool wants_all) const {
     Expectation about;
-    about.near = near_error_[i];
+    about.near = scale_.near()[i];
     about.spread = spread_[i];
     about.members = members_context_;
     about.rank = static_cast<int>(std::min<size_t>(place, 2));
@@ -254,7 +236,7 @@ class SitePredictor {
     about.side = side_[i];
     about.estimate = (share_[i] + (place == 0 ? first_usual_ : so_far.weighed)) >> share_digits_;
     if (wants_all) {
-      about.all = all_error_;
+      about.all = scale_.all();
       about.so_far = so_far.errors;
       about.widest = static_cast<int32_t>(std::min(*std::ranges::max_element(stencil_.spread), kWidest));
       about.source = source();
@@ -263,16 +245,6 @@ class SitePredictor {
     }
     return about;
   }
-
-  void adaptTypicalError() {
-    int32_t sum = 0;
-    for (size_t i = 0; i < kLanes; ++i) sum += errors_[i];
-    const int32_t now = std::min(perComponent(sum), 4 * typical_error_);
-    typical_error_ = std::max(typical_error_ + ((now - typical_error_) >> 5), 16);
-  }
-
-  // Of a sum over them, which is below 2^23.
-  int32_t perComponent(int32_t sum) const { return static_cast<int32_t>(sum * int64_t{C == 2 ? 32768 : part_} >> 16); }
 
   static constexpr T kWidest = 1 << 25;
   static constexpr int32_t kMostSpread = 1 << 28;  // numbers of 32 bits never reach it
@@ -289,18 +261,16 @@ class SitePredictor {
   TangentPlane plane_;
 
   const int count_;  // of components
-  const int part_;   // 65536 / that
+  ErrorScale<C> scale_;
   const T max_;
   const bool tangent_;
   bool damaged_ = false;
-  int32_t typical_error_ = 64;
 
   // Of the current site.
-  Vec<C, int32_t> wanted_{}, near_error_{}, errors_{};  // `wanted_` is the value
-  Vec<C, int32_t> spread_{}, share_{}, side_{};         // what lookAhead() found
+  Vec<C, int32_t> wanted_{}, errors_{};          // `wanted_` is the value
+  Vec<C, int32_t> spread_{}, share_{}, side_{};  // what lookAhead() found
   int32_t first_usual_ = 0;
   int share_digits_ = 2;
-  int32_t all_error_ = 0;
   uint32_t members_context_ = 0;
   int32_t several_ = 0;  // parallelograms: -1; 0: none or one
   int picked_ = 0;       // 1: one of them is the base

@@ -266,6 +266,7 @@ TEST(Values, UnsupportedFormatsAreRefused) {
   const ValueSites where{sites.graph, {}};
   EXPECT_TRUE(supports(where, {3, 100, ValueProfile::kDefault, ValueKind::kPoints}));
   EXPECT_FALSE(supports(where, {2, 100, ValueProfile::kDefault, ValueKind::kPoints}));
+  EXPECT_FALSE(supports(where, {3, 100, ValueProfile::kDefault, ValueKind::kAngular, true}));
   EXPECT_FALSE(supports(where, {2, 100, ValueProfile::kDefault, ValueKind::kTexcoord}));  // no places
   EXPECT_FALSE(supports(where, {2, 101, ValueProfile::kDefault, ValueKind::kDirection}));
   EXPECT_FALSE(supports(where, {3, 100, ValueProfile::kDefault, ValueKind::kLabel, false, true}));
@@ -283,18 +284,6 @@ TEST(Values, DirectionsNameAWeighting) {
   EXPECT_TRUE(decodeValues({sites.graph, places}, format, bytes));
   bytes[0] = 3;
   EXPECT_EQ(decodeValues({sites.graph, places}, format, bytes).error(), Error::kMalformed);
-}
-
-/// Wedges with equal values on both sides of an edge that is no seam are one site.
-TEST(Values, WedgesJoinAcrossEdgesWithoutSeam) {
-  const Result<Encoded> encoded = encode(shapes::cube().mesh);
-  ASSERT_TRUE(encoded);
-  const Connectivity& mesh = encoded->connectivity;
-  std::vector<Index> wedges(mesh.umbrellas.size());
-  for (Index c = 0; c < wedges.size(); ++c) wedges[c] = c;
-  EXPECT_EQ(joinWedges(mesh, wedges, 24, {}).count, 8u);
-  const std::vector<uint8_t> all(wedges.size(), 1);
-  EXPECT_EQ(joinWedges(mesh, wedges, 24, all).count, 24u);
 }
 
 }  // namespace
