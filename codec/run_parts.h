@@ -8,83 +8,61 @@
 #include <utility>
 #include <vector>
 
-#include "codec/end_flags.h"
+#include "codec/edge_ends.h"
 #include "codec/mesh.h"
 #include "codec/model.h"
-#include "codec/umbrella_ways.h"
 
 namespace tutte {
 
-/// Runs are the largest sets of corners around an umbrella that no parted end separates, numbered by first corner.
-struct Runs {
-  std::vector<Index> of_corner, firsts;
-  std::vector<Index> before, after;  ///< per run, its neighbours around the umbrella; kNone at a boundary
-
-  /// `ends` are EndStates, `corners` all of some umbrellas, in ascending order: of others, of_corner is kNone.
-  Runs(const UmbrellaWays& ways, std::span<const uint8_t> ends, std::span<const Index> corners)
-      : of_corner(ends.size(), kNone) {
-    for (const Index corner : corners) {
-      if (of_corner[corner] == kNone) add(ways, ends, corner);
-    }
-    before.assign(firsts.size(), kNone);
-    after.assign(firsts.size(), kNone);
-    for (const Index corner : corners) {
-      if (ends[corner] != kParted) continue;
-      const Index here = of_corner[corner], there = of_corner[ways.across(corner)];
-      after[here] = there;
-      before[there] = here;
-    }
-  }
-
- private:
-  void add(const UmbrellaWays& ways, std::span<const uint8_t> ends, Index first) {
-    const Index run = static_cast<Index>(firsts.size());
-    firsts.push_back(first);
-    for (Index c = first; c != kNone && of_corner[c] == kNone; c = ends[c] == kParted ? kNone : ways.across(c)) {
-      of_corner[c] = run;
-    }
-    for (Index c = ways.back(first); c != kNone && ends[c] != kParted && of_corner[c] == kNone; c = ways.back(c)) {
-      of_corner[c] = run;
-    }
-  }
-};
-
-/// Codes the part of each run, as its number within the whole, in the order of runs. A run has a new part or one that
-/// an earlier run of its whole has, but not a neighbour's, for an end parts them. All arguments must outlive this
-/// object.
+/// Codes the parts of runs, as their numbers within the whole. Runs are the largest sets of corners around an umbrella
+/// that no parted end separates. A run has a new part or one that an earlier run of its whole has, but not a
+/// neighbour's, for an end parts them.
 template <class Port>
 class RunParts {
  public:
-  /// `wholes`: per corner, below `whole_count`.
-  RunParts(Port& port, const Connectivity& mesh, const Runs& runs, std::span<const Index> wholes, Index whole_count)
-      : port_(port), mesh_(mesh), runs_(runs), wholes_(wholes), used_(whole_count), seen_(mesh.umbrella_count) {
-    parts_.reserve(runs.firsts.size());
+  /// `wholes`: per corner, below `whole_count`. It must outlive this object, and so must the port.
+  RunParts(Port& port, std::span<const Index> wholes, Index whole_count)
+      : port_(port), wholes_(wholes), used_(whole_count) {}
+
+  /// Of an umbrella that is one run, by one of its corners. A writer codes `part`.
+  Index codeWhole(Index corner, Index part) { return code(models_[0], wholes_[corner], {}, part); }
+
+  /// Of a touched umbrella: calls set(place, part) for its places. A writer codes partOf(corner).
+  template <class PartOf, class Set>
+  void codeRing(const EndRings& rings, const EndRing& ring, PartOf partOf, Set set) {
+    const Index row_end = rowEnd(rings, ring);
+    Run first, before;
+    for (Index begin = ring.first, end; begin < row_end; begin = end) {
+      for (end = begin + 1; end < row_end && *rings.states(end) != kParted;) ++end;
+      const Index corner = rings.corner(begin), whole = wholes_[corner];
+      const bool closes = ring.closed && end == row_end;
+      const Barred barred(before.partIn(whole), closes ? first.partIn(whole) : kNone);
+      before = {whole, code(models_[begin != ring.first], whole, barred, partOf(corner))};
+      for (Index place = begin; place < end; ++place) set(place, before.part);
+      if (begin != ring.first) continue;
+      first = before;
+      for (Index place = row_end; place < ring.end(); ++place) set(place, first.part);
+    }
   }
 
-  /// Of the next run. Writer: `part` is coded.
-  void code(Index part) {
-    const auto run = static_cast<Index>(parts_.size());
-    const Index first = runs_.firsts[run];
-    Index& used = used_[wholes_[first]];
-    const Barred barred = barredFor(run);
-    const Index choices = used - barred.count();
-    Models& models = models_[std::exchange(seen_[mesh_.umbrellas[first]], uint8_t{1})];
-    const bool reused = choices > 0 && isReused(models, choices, part < used);
-    parts_.push_back(reused ? barred.unranked(pick(models, choices, barred.ranked(part))) : used++);
-  }
-
-  /// Per run.
-  const std::vector<Index>& parts() const { return parts_; }
-
-  /// Afterwards: per whole, how many parts its corners use.
+  /// Per whole, how many parts its corners use so far.
   const std::vector<Index>& used() const { return used_; }
 
  private:
   static constexpr Index kMostFlags = 3;  // of a choice
 
+  struct Run {
+    Index whole = kNone, part = kNone;
+
+    Index partIn(Index other) const { return whole == other ? part : kNone; }
+  };
+
   /// Parts that a run cannot have, in order; kNone for none. Ranks count the others.
   struct Barred {
     Index low = kNone, high = kNone;
+
+    Barred() = default;
+    Barred(Index a, Index b) : low(std::min(a, b)), high(a == b ? kNone : std::max(a, b)) {}
 
     Index count() const { return (low != kNone) + (high != kNone); }
     Index ranked(Index part) const { return part - (part > low) - (part > high); }
@@ -102,17 +80,21 @@ class RunParts {
     std::array<std::array<std::array<Bit, kMostFlags + 1>, kMostFlags>, kMostFlags> picks;
   };
 
-  /// The parts of the neighbours in the same whole, as far as they are known.
-  Barred barredFor(Index run) const {
-    Barred barred{knownPart(runs_.before[run], run), knownPart(runs_.after[run], run)};
-    if (barred.high < barred.low) std::swap(barred.low, barred.high);
-    if (barred.high == barred.low) barred.high = kNone;
-    return barred;
+  /// Where the last run of a ring's row ends; what is behind it belongs to the first one, as the ring is closed.
+  static Index rowEnd(const EndRings& rings, const EndRing& ring) {
+    if (!ring.closed || *rings.states(ring.first) == kParted) return ring.end();
+    Index end = ring.end();
+    while (--end > ring.first) {
+      if (*rings.states(end) == kParted) return end;
+    }
+    return ring.end();
   }
 
-  Index knownPart(Index neighbour, Index run) const {
-    const bool known = neighbour < parts_.size() && wholes_[runs_.firsts[neighbour]] == wholes_[runs_.firsts[run]];
-    return known ? parts_[neighbour] : kNone;
+  Index code(Models& models, Index whole, const Barred& barred, Index part) {
+    Index& used = used_[whole];
+    const Index choices = used - barred.count();
+    const bool reused = choices > 0 && isReused(models, choices, part < used);
+    return reused ? barred.unranked(pick(models, choices, barred.ranked(part))) : used++;
   }
 
   bool isReused(Models& models, Index choices, bool value) {
@@ -135,12 +117,9 @@ class RunParts {
   }
 
   Port& port_;
-  const Connectivity& mesh_;
-  const Runs& runs_;
   const std::span<const Index> wholes_;
-  std::vector<Index> parts_, used_;
-  std::vector<uint8_t> seen_;  ///< per umbrella: 1 when a run of it is known
-  std::array<Models, 2> models_;
+  std::vector<Index> used_;
+  std::array<Models, 2> models_;  ///< of umbrellas' first runs; of others
 };
 
 }  // namespace tutte

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 #include <utility>
 
+#include "codec/edge_ends.h"
 #include "codec/end_flags.h"
 #include "codec/range_coder.h"
 #include "codec/run_parts.h"
+#include "codec/touch_flags.h"
 #include "codec/umbrella_ways.h"
 
 namespace tutte {
@@ -22,26 +23,10 @@ Parting codeParting(Port& port, Parting parting) {
   return port.code(32768, parting == Parting::kMixed) ? Parting::kMixed : Parting::kAlways;
 }
 
-/// From parted ends to flags at edges.
-std::vector<uint8_t> edgesOf(const Connectivity& mesh, std::span<const uint8_t> ends) {
-  std::vector<uint8_t> edges(ends.size());
-  for (size_t corner = 0, count = ends.size(); corner < count; ++corner) {
-    if (ends[corner] == kParted) edges[corner] = edges[mesh.twins[corner]] = 1;
-  }
-  return edges;
-}
-
 Parting partingOf(std::span<const uint8_t> truth, std::span<const uint8_t> ends) {
   if (std::ranges::find(truth, 1) == truth.end()) return Parting::kNever;
   const auto same = [](uint8_t differs, uint8_t end) { return differs == (end == kParted); };
   return std::ranges::equal(truth, ends, same) ? Parting::kAlways : Parting::kMixed;
-}
-
-/// What is asked about an attribute.
-std::vector<uint8_t> askParted(std::span<const uint8_t> ends) {
-  std::vector<uint8_t> asked(ends.size());
-  for (size_t c = 0; c < ends.size(); ++c) asked[c] = ends[c] == kParted ? kAsked : kNoEnd;
-  return asked;
 }
 
 std::vector<uint8_t> differingEnds(const UmbrellaWays& ways, std::span<const Index> wedges,
@@ -72,11 +57,8 @@ struct Level {
   std::vector<Index> own;              ///< empty: of somebody else
   std::span<const Index> of_corner{};  ///< `own`, or the other's
   Index count = 0;
-  std::vector<uint8_t> ends{};  ///< EndStates; empty: it differs nowhere
-
-  Level() = default;
-  Level(std::vector<Index> numbers, Index number_count, std::vector<uint8_t> states)
-      : own(std::move(numbers)), of_corner(own), count(number_count), ends(std::move(states)) {}
+  std::vector<uint8_t> ends{};   ///< EndStates; empty: it differs nowhere
+  std::vector<Index> touched{};  ///< umbrellas with parted ends, in ascending order
 };
 
 Level firstLevel(const Connectivity& mesh) {
@@ -87,67 +69,159 @@ Level firstLevel(const Connectivity& mesh) {
   return level;
 }
 
-/// What is asked about the next level: where this one does not differ.
-std::vector<uint8_t> askJoined(const Connectivity& mesh, const Level& whole) {
-  std::vector<uint8_t> ends(mesh.twins.size(), kAsked);
-  for (size_t c = 0; c < whole.ends.size(); ++c) ends[c] = whole.ends[c] == kParted ? kParted : kAsked;
-  return ends;
-}
-
-/// Codes the parts of `whole` behind the flags that part it, and returns their numbers per run.
+/// Codes the parts of `whole` behind the flags that part it.
 template <class Port>
 class LevelCoder {
  public:
   LevelCoder(Port& port, const UmbrellaWays& ways, const Level& whole)
-      : port_(port), ways_(ways), whole_(whole), ends_(askJoined(ways.mesh(), whole)) {}
+      : port_(port), ways_(ways), whole_(whole), ends_(ways, givenEnds(whole)), rings_(ends_) {}
 
   /// `parts`: per corner; a decoder passes nothing.
   Level code(std::span<const Index> parts = {}) {
-    const std::vector<uint8_t> truth = partedEnds(ways_, parts);
-    EndFlags<Port> flags(port_, ways_, ends_, truth);
-    flags.code();
-    // Umbrellas that are wholes of their own, and not parted, are their own parts: nothing is coded.
-    const bool own = whole_.of_corner.data() == ways_.mesh().umbrellas.data();
-    Runs runs(ways_, ends_, own ? flags.corners() : allCorners());
-    RunParts<Port> coder(port_, ways_.mesh(), runs, whole_.of_corner, whole_.count);
-    std::vector<Index> base(Port::kWriting ? whole_.count : 0, kNone);
-    for (const Index first : runs.firsts) {
-      Index local = 0;
-      if constexpr (Port::kWriting) {
-        Index& start = base[whole_.of_corner[first]];
-        if (start == kNone) start = parts[first];
-        local = parts[first] - start;
-      }
-      coder.code(local);
-    }
-    return numbered(std::move(runs), coder);
+    codeEnds(partedEnds(ways_, parts));
+    RunParts<Port> runs(port_, whole_.of_corner, whole_.count);
+    codeRuns(runs, parts);
+    Level level;
+    level.own = numbered(runs.used(), level.count);
+    level.of_corner = level.own;
+    level.touched = touched();
+    level.ends = std::move(ends_).takeStates();
+    return level;
   }
 
  private:
-  std::vector<Index> allCorners() const {
-    std::vector<Index> corners(ends_.size());
-    std::iota(corners.begin(), corners.end(), Index{0});
-    return corners;
+  // Where a level differs, the next one does, too.
+  std::vector<uint8_t> givenEnds(const Level& whole) const {
+    std::vector<uint8_t> ends(whole.of_corner.size());
+    for (size_t c = 0; c < whole.ends.size(); ++c) ends[c] = whole.ends[c] == kParted ? kParted : kNoEnd;
+    return ends;
   }
 
-  // Turns numbers within wholes into parts. A whole without runs has one part.
-  Level numbered(Runs&& runs, const RunParts<Port>& coder) {
+  void codeEnds(std::span<const uint8_t> truth) {
+    TouchFlags<Port>(port_, ends_, rings_, truth).code();
+    EndFlags<Port>(port_, ends_, rings_, truth).code();
+    for (const Index umbrella : whole_.touched) {
+      if (!rings_.isTouched(umbrella)) rings_.add(umbrella);
+    }
+  }
+
+  // Umbrellas that are wholes of their own, and not parted, are their own parts: nothing is coded.
+  bool ownsUmbrellas() const { return whole_.of_corner.data() == ways_.mesh().umbrellas.data(); }
+
+  void codeRuns(RunParts<Port>& runs, std::span<const Index> parts) {
+    // A whole's parts, by the order in which they are coded.
+    std::vector<Index> coded(Port::kWriting ? parts.size() + whole_.count : 0, kNone);
+    const auto partOf = [&](Index corner) -> Index {
+      if constexpr (!Port::kWriting) return 0;
+      Index& part = coded[parts[corner]];
+      if (part == kNone) part = runs.used()[whole_.of_corner[corner]];
+      return part;
+    };
+    part_at_.resize(rings_.placeCount());
+    const auto codeRing = [&](const EndRing& ring) {
+      runs.codeRing(rings_, ring, partOf, [&](Index place, Index part) { part_at_[place] = part; });
+    };
+    if (ownsUmbrellas()) {
+      for (const EndRing& ring : rings_.rings()) codeRing(ring);
+      return;
+    }
+    const Index count = ways_.mesh().umbrella_count;
+    part_of_.resize(count);
+    for (Index umbrella = 0; umbrella < count; ++umbrella) {
+      const Index first = ways_.first(umbrella);
+      if (const EndRing* ring = rings_.find(umbrella)) {
+        codeRing(*ring);
+      } else {
+        part_of_[umbrella] = runs.codeWhole(first, partOf(first));
+      }
+    }
+  }
+
+  /// Turns numbers within wholes into parts, `count` in all, in the order of numberParts(). A whole without runs has
+  /// one part.
+  std::vector<Index> numbered(std::span<const Index> used, Index& count) {
     std::vector<Index> base(whole_.count);
-    Index count = 0;
     for (Index w = 0; w < whole_.count; ++w) {
       base[w] = count;
-      count += std::max(coder.used()[w], 1u);
+      count += std::max(used[w], 1u);
     }
-    const Index* whole = whole_.of_corner.data();
-    for (Index& number : runs.of_corner) number = base[*whole++] + (number == kNone ? 0 : coder.parts()[number]);
-    return {std::move(runs.of_corner), count, std::move(ends_)};
+    std::vector<Index> numbers(whole_.of_corner.begin(), whole_.of_corner.end());
+    for (Index& number : numbers) number = base[number];
+    if (!part_of_.empty()) {
+      for (Index c = 0; c < numbers.size(); ++c) numbers[c] += part_of_[ways_.umbrella(c)];
+    }
+    for (const EndRing& ring : rings_.rings()) {
+      if (part_of_.empty()) sortParts(ring, used[ring.umbrella]);
+      for (Index place = ring.first; place < ring.end(); ++place) numbers[rings_.corner(place)] += part_at_[place];
+    }
+    if (!part_of_.empty()) renumber(base, count, numbers);
+    return numbers;
+  }
+
+  // Numbers a ring's parts by their first corners, where they are a whole's.
+  void sortParts(const EndRing& ring, Index count) {
+    if (count < 2) return;
+    lowest_.assign(count, {kNone, 0});
+    for (Index place = ring.first; place < ring.end(); ++place) {
+      auto& [corner, part] = lowest_[part_at_[place]];
+      part = part_at_[place];
+      corner = std::min(corner, rings_.corner(place));
+    }
+    std::ranges::sort(lowest_);
+    order_.resize(count);
+    for (Index i = 0; i < count; ++i) order_[lowest_[i].second] = i;
+    for (Index place = ring.first; place < ring.end(); ++place) part_at_[place] = order_[part_at_[place]];
+  }
+
+  // The same, where wholes are of several umbrellas. `base`: per whole its first part.
+  void renumber(std::vector<Index>& base, Index count, std::vector<Index>& numbers) const {
+    std::vector<Index> part_of(count, kNone);
+    for (Index c = 0; c < numbers.size(); ++c) {
+      Index& part = part_of[numbers[c]];
+      if (part == kNone) part = base[whole_.of_corner[c]]++;
+      numbers[c] = part;
+    }
+  }
+
+  std::vector<Index> touched() const {
+    std::vector<Index> umbrellas;
+    for (const EndRing& ring : rings_.rings()) umbrellas.push_back(ring.umbrella);
+    std::ranges::sort(umbrellas);
+    return umbrellas;
   }
 
   Port& port_;
   const UmbrellaWays& ways_;
   const Level& whole_;
-  std::vector<uint8_t> ends_;
+  EdgeEnds ends_;
+  EndRings rings_;
+  std::vector<Index> part_at_;                   ///< per place: its corner's part, within its whole
+  std::vector<std::pair<Index, Index>> lowest_;  ///< of sortParts()
+  std::vector<Index> order_;
+  std::vector<Index> part_of_;  ///< the same per umbrella that is not touched; empty: all 0
 };
+
+/// Which of the parted ends of a level an attribute has. `truth`: as for EndFlags.
+template <class Port>
+std::vector<uint8_t> codeAttributeEnds(Port& port, const UmbrellaWays& ways, const Level& level,
+                                       std::span<const uint8_t> truth = {}) {
+  EdgeEnds ends(ways, std::vector<uint8_t>(level.ends.size()), level.ends);
+  EndRings rings(ends);
+  TouchFlags<Port>(port, ends, rings, truth).code(level.touched);
+  EndFlags<Port>(port, ends, rings, truth).code();
+  return std::move(ends).takeStates();
+}
+
+/// From parted ends to flags at edges.
+std::vector<uint8_t> edgesOf(const UmbrellaWays& ways, const Level& level, std::span<const uint8_t> ends) {
+  std::vector<uint8_t> edges(ends.size());
+  for (const Index umbrella : level.touched) {
+    ways.goRound(umbrella, [&](Index corner) {
+      if (ends[corner] == kParted) edges[corner] = edges[ways.twin(corner)] = 1;
+    });
+  }
+  return edges;
+}
 
 /// The levels below the connectivity's vertices: those of a welded mesh, then wedges.
 struct Levels {
@@ -166,20 +240,19 @@ Levels decodeLevels(RangeReader& port, const UmbrellaWays& ways, bool welded) {
   if (codeWedgesDiffer(port, welded, false)) {
     levels.wedges = LevelCoder(port, ways, levels.vertices).code();
   } else {
-    levels.wedges = {levels.vertices.own, levels.vertices.count, levels.vertices.ends};
+    levels.wedges = levels.vertices;
   }
   return levels;
 }
 
-void decodeAttributeSeams(RangeReader& port, const UmbrellaWays& ways, std::span<const uint8_t> parted,
+void decodeAttributeSeams(RangeReader& port, const UmbrellaWays& ways, const Level& wedges,
                           std::vector<std::vector<uint8_t>>& attribute_seams) {
   for (size_t slot = 1; slot < attribute_seams.size() && !port.overrun(); ++slot) {
     const Parting parting = codeParting(port, Parting::kNever);
-    if (parting == Parting::kAlways) attribute_seams[slot] = edgesOf(ways.mesh(), parted);
-    if (parting != Parting::kMixed) continue;
-    std::vector<uint8_t> ends = askParted(parted);
-    EndFlags<RangeReader>(port, ways, ends).code();
-    attribute_seams[slot] = edgesOf(ways.mesh(), ends);
+    if (parting == Parting::kAlways) attribute_seams[slot] = edgesOf(ways, wedges, wedges.ends);
+    if (parting == Parting::kMixed) {
+      attribute_seams[slot] = edgesOf(ways, wedges, codeAttributeEnds(port, ways, wedges));
+    }
   }
 }
 
@@ -203,7 +276,8 @@ Seams withoutSeams(const Connectivity& mesh, Index attribute_count) {
 
 std::vector<uint8_t> encodeSeams(const Connectivity& mesh, std::span<const Index> vertices,
                                  std::span<const Index> wedges, std::span<const ValueView> attributes) {
-  const UmbrellaWays ways(mesh);
+  const MeshWays mesh_ways(mesh);
+  const UmbrellaWays ways(mesh, mesh_ways);
   const bool welded = !vertices.empty();
   RangeWriter port;
   Level level = firstLevel(mesh);
@@ -214,24 +288,25 @@ std::vector<uint8_t> encodeSeams(const Connectivity& mesh, std::span<const Index
   for (size_t slot = 1; slot < attributes.size(); ++slot) {
     const std::vector<uint8_t> truth = differingEnds(ways, wedges, level.ends, attributes[slot]);
     if (codeParting(port, partingOf(truth, level.ends)) != Parting::kMixed) continue;
-    std::vector<uint8_t> ends = askParted(level.ends);
-    EndFlags<RangeWriter>(port, ways, ends, truth).code();
+    codeAttributeEnds(port, ways, level, truth);
   }
   return std::move(port).finish();
 }
 
 Result<Seams> decodeSeams(const Connectivity& mesh, bool welded, std::span<const uint8_t> bytes,
                           Index attribute_count) {
-  const UmbrellaWays ways(mesh);
+  Seams seams;
+  seams.ways = std::make_shared<const MeshWays>(mesh);
+  const UmbrellaWays ways(mesh, *seams.ways);
   RangeReader port(bytes);
   Levels levels = decodeLevels(port, ways, welded);
-  Seams seams;
   seams.attribute_seams.resize(attribute_count);
-  decodeAttributeSeams(port, ways, levels.wedges.ends, seams.attribute_seams);
+  decodeAttributeSeams(port, ways, levels.wedges, seams.attribute_seams);
   if (port.overrun()) return Error::kTruncated;
   if (port.trailing()) return Error::kTrailingBytes;
   seams.wedges = std::move(levels.wedges.own);
   seams.wedge_count = levels.wedges.count;
+  seams.parted_umbrellas = std::move(levels.wedges.touched);
   if (welded) seams.vertices = std::move(levels.vertices.own);
   seams.vertex_count = levels.vertices.count;
   return seams;

@@ -2,10 +2,12 @@
 // Seams: where vertices that are coded as one and the wedges of a vertex part, and which attributes differ there.
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "codec/mesh.h"
+#include "codec/mesh_ways.h"
 #include "codec/result.h"
 
 namespace tutte {
@@ -28,6 +30,9 @@ struct Seams {
   /// is, when the attribute differs across the edge at one of its ends. Both corners of an edge say the same; 0 on
   /// boundaries. Empty when the attribute never differs; slot 0 is always empty.
   std::vector<std::vector<uint8_t>> attribute_seams;
+  /// In ascending order, all umbrellas whose corners have different wedges. Edges without an end there are no seams.
+  std::vector<Index> parted_umbrellas;
+  std::shared_ptr<const MeshWays> ways;  ///< the connectivity's, so that nobody has to make them again; may be null
 };
 
 /// The vertex of each coded corner in the connectivity.

@@ -1,8 +1,8 @@
 """A payload's head (EXTENSION_SPEC.md, Appendix A) and its section SEAMS (C.1 and C.2)."""
 import zlib
 
-from models import Bit, RangeDecoder, clamp, require
-from value_models import SQUASH, Chance, Chances, varint
+from models import Bit, Number, RangeDecoder, clamp, require
+from value_models import SQUASH, Chances, varint
 
 
 # Appendix A
@@ -69,6 +69,27 @@ class MixedFlag:
         return bit
 
 
+class SteadyRun:
+    def __init__(self, sure, loss):
+        self.sure, self.loss, self.length, self.usual = sure, loss, 0, 0
+
+    def is_sure(self):
+        return self.length >= self.sure
+
+    def read(self, stream):
+        same = stream.bit(65536 - 65536 // (self.length + 2))
+        self.count(same)
+        return self.usual if same else 1 - self.usual
+
+    def note(self, flag):
+        if self.length == 0:
+            self.usual = flag
+        self.count(flag == self.usual)
+
+    def count(self, same):
+        self.length = min(self.length + 1, 16383) if same else self.length // self.loss
+
+
 # C.2 SEAMS
 
 class Ends:
@@ -87,87 +108,161 @@ class Ends:
                     self.back[following] = mesh.twins[c]
             corner += degree
         self.all = set(self.across)
+        firsts = {}
+        for c, u in enumerate(mesh.umbrellas):
+            if u not in firsts or mesh.twins[c] is None:
+                firsts[u] = c
+        self.rings = [list(self.round(firsts[u])) for u in range(len(firsts))]
+
+    def round(self, first):
+        """The corners of an umbrella."""
+        yield first
+        c = self.back.get(first)
+        while c is not None and c != first:
+            yield c
+            c = self.back.get(c)
+
+    def edges(self, u):
+        """Per edge of an umbrella: a corner of it, one at the far end, that across the face if it is a quad, and that behind the neighbour."""
+        ring = self.rings[u]
+        for c in ring:
+            x = self.following[c]
+            side = self.across.get(x)
+            yield c, x, self.following[x] if self.degree[c] == 4 else None, None if side is None else self.following[side]
+        if u in self.open:
+            x = self.preceding[ring[-1]]
+            side = self.back.get(x)
+            yield ring[-1], x, None, None if side is None else self.preceding[side]
+
+
+UNKNOWN, QUIET, TOUCHED, NOWHERE = range(4)
 
 
 class FlagPass:
     def __init__(self, ends, candidates, given=frozenset()):
-        self.ends, self.candidates, self.history = ends, candidates, 0
-        self.quiet, self.touches, self.flags = [Chance(4096) for _ in range(2)], MixedFlag(3, 1), MixedFlag(6, 3)
-        self.known = {end: 2 for end in given}
-        self.left, self.parted, self.required, self.states = {}, {}, {}, {}
-        for c, u in enumerate(ends.umbrellas):
-            self.left[u] = self.left.get(u, 0) + (c in candidates)
-            self.parted[u] = max(self.parted.get(u, 0), 2 * (c in given))
-        for u, parted in self.parted.items():
-            self.required[u] = 1 if u in ends.open or parted else 2
+        self.ends, self.candidates, self.history, self.row, self.gap = ends, candidates, 0, 0, None
+        self.gaps, self.touch_runs, self.touches = Number(), {}, MixedFlag(4, 1)
+        self.end_runs, self.flags = {}, MixedFlag(6, 3)
+        self.given, self.told, self.touched, self.suggested = given, {}, [], set()
+        self.is_touched, self.settled = set(), set()
+        self.left, self.parted, self.required = {}, {}, {}
 
     def run(self, stream):
-        """The ends whose flag is 1."""
-        self.read_touched(stream)
-        for c, t in enumerate(self.ends.twins):
-            for end, far in ((c, t), (t, c)):
-                if not self.wanted(c):
-                    break
-                if self.wanted(end) and self.known.get(end, 0) == 0:
-                    self.read(stream, end, far)
-        return {end for end, known in self.known.items() if known == 2}
+        """The ends whose flag is 1, and the touched umbrellas."""
+        for u, ring in enumerate(self.ends.rings):
+            if any(c in self.candidates for c in ring):
+                self.read_umbrella(stream, u)
+        for u in self.touched:
+            for c in self.ends.rings[u]:
+                self.read_end(stream, c)
+            for c in self.ends.rings[u]:
+                self.read_end(stream, self.ends.twins[c])
+        return {end for end, told in self.told.items() if told == 2} | set(self.given)
 
-    def wanted(self, end):
-        return end in self.candidates and self.state(end) == 2
-
-    def state(self, corner):
-        return self.states.get(self.ends.umbrellas[corner], 0)
-
-    def read_touched(self, stream):
-        row, following, preceding, twins = 0, self.ends.following, self.ends.preceding, self.ends.twins
-        for c, u in enumerate(self.ends.umbrellas):
-            if c in self.candidates and u not in self.states:
-                p, n, o = self.state(preceding[c]), self.state(following[c]), self.state(following[following[c]])
-                left, r = twins[preceding[c]], self.state(preceding[twins[c]])
-                l = 3 if left is None else self.state(following[following[left]])
-                if row == 0 and n != 2:
-                    touched = self.quiet[n].read(stream)
-                else:
-                    touched = self.touches.read(stream, [(((p * 3 + n) * 3 + o) * 4 + l) * 4 + r, (row * 3 + n) * 3 + o,
-                                                         ((p * 3 + n) * 2 + (l == 3)) * 16 + (row & 15)], 0)
-                self.states[u] = 1 + touched
-            row = (2 * row + (self.state(c) == 2)) & 255
-
-    def read(self, stream, e, far):
-        u, v = self.ends.umbrellas[e], self.ends.umbrellas[far]
-        if self.left[u] == self.required[u]:
-            flag = 1
+    def read_umbrella(self, stream, u):
+        if u in self.suggested:
+            touched = self.read_suggested(stream, u)
+            self.settled.add(u)
         else:
-            flag = int(self.flags.read(stream, self.contexts(e, far, u, v), self.flag(far)))
+            if self.gap is None:
+                self.gap = self.gaps.read(stream)
+            touched = self.gap == 0
+            self.gap = None if touched else self.gap - 1
+        self.row = (2 * self.row + touched) & 255
+        if not touched:
+            return
+        ring = self.ends.rings[u]
+        self.touched.append(u)
+        self.is_touched.add(u)
+        self.suggested.update(self.ends.umbrellas[x] for _, x, far, _ in self.ends.edges(u) for x in (x, far) if x is not None)
+        self.left[u] = sum(c in self.candidates for c in ring)
+        self.parted[u] = 2 * any(c in self.given for c in ring)
+        self.required[u] = 1 if u in self.ends.open or self.parted[u] else 2
+
+    def state(self, corner, u):
+        if corner is None:
+            return NOWHERE
+        other = self.ends.umbrellas[corner]
+        return UNKNOWN if other > u else TOUCHED if other in self.is_touched else QUIET
+
+    def need(self, v):
+        neighbours = [self.ends.umbrellas[x] for _, x, _, _ in self.ends.edges(v)]
+        touched = sum(w in self.is_touched and w != v for w in neighbours)
+        unknown = sum(w > v and w not in self.settled for w in neighbours)
+        return min(touched, 2) * 5 + min(unknown, 4)
+
+    def read_suggested(self, stream, u):
+        edges = list(self.ends.edges(u))
+        states = [self.state(x, u) for _, x, _, _ in edges]
+        far = [self.state(f, u) for _, _, f, _ in edges]
+        near = [(self.need(self.ends.umbrellas[x]), self.state(beyond, u))
+                for _, x, _, beyond in edges if self.state(x, u) == TOUCHED]
+        need = min((n for n, _ in near), default=15)
+        touched, quiet, unknown = (min(states.count(state), 3) for state in (TOUCHED, QUIET, UNKNOWN))
+        far_touched, far_quiet = min(far.count(TOUCHED), 2), min(far.count(QUIET), 2)
+        nearest = ((need * 4 + touched) * 4 + quiet) * 4 + unknown
+        steady = self.touch_runs.setdefault(nearest, SteadyRun(96, 8))
+        if steady.is_sure():
+            return steady.read(stream)
+        lines, line = sum(state == TOUCHED for _, state in near), 0
+        for n, state in near:
+            if n == need and line != TOUCHED:
+                line = state
+        flag = int(self.touches.read(stream, [
+            nearest, ((self.row * 4 + line) * 4 + need // 5) * 4 + touched,
+            (((need * 4 + line) * 3 + far_touched) * 3 + far_quiet) * 4 + touched,
+            ((((min(lines, 2) * 4 + quiet) * 4 + touched) * 3 + far_touched) * 4 + unknown) * 4 + self.row % 4], 0))
+        steady.note(flag)
+        return flag
+
+    def read_end(self, stream, e):
+        if e not in self.candidates or e in self.told or self.ends.umbrellas[e] not in self.is_touched:
+            return
+        u = self.ends.umbrellas[e]
+        flag = 1 if self.left[u] == self.required[u] else self.decide(stream, e, u)
         self.parted[u] = min(2, self.parted[u] + flag)
         self.required[u] = max(0, self.required[u] - flag)
         self.left[u] -= 1
-        self.known[e] = 1 + flag
+        self.told[e] = 1 + flag
         self.history = (2 * self.history + flag) & 15
 
-    def flag(self, end):
-        return self.known.get(end, 0)
+    def decide(self, stream, e, u):
+        far = self.ends.twins[e]
+        v = self.ends.umbrellas[far]
+        far_parted, far_left = (self.parted[v], self.left[v]) if v in self.is_touched else (3, 0)
+        known_far = self.known(far)
+        seen = (known_far * 3 + self.parted[u]) * 4 + far_parted
+        nearest = self.around(e) * 36 + seen
+        steady = self.end_runs.setdefault(nearest, SteadyRun(48, 4))
+        if steady.is_sure():
+            return steady.read(stream)
+        straight = self.known(self.step(e, 2)) if u not in self.ends.open and len(self.ends.rings[u]) == 4 else 0
+        flag = int(self.flags.read(stream, [
+            nearest, ((straight * 3 + self.known(self.step(e, -3))) * 3 + self.known(self.step(e, 3))) * 36 + seen,
+            ((min(self.left[u], 8) - 1) * 8 + min(far_left, 7)) * 36 + seen,
+            self.around(far) * 36 + seen,
+            ((self.facing(e) * 3 + self.facing(far)) * 16 + self.history) * 36 + seen,
+            (self.beside(e) * 9 + self.beside(far)) * 36 + seen], known_far))
+        steady.note(flag)
+        return flag
 
-    def contexts(self, e, far, u, v):
-        across, back, known = self.ends.across.get, self.ends.back.get, self.flag
-        sides = known(across(e)) * 3 + known(back(e))
-        far_sides = known(across(far)) * 3 + known(back(far))
-        parted, left = (self.parted[v], self.left[v]) if self.states.get(v) == 2 else (3, 0)
-        seen = (known(far) * 3 + self.parted[u]) * 4 + parted
-        return [(sides * 9 + known(across(across(e))) * 3 + known(back(back(e)))) * 36 + seen,
-                (self.straight(e) * 3 + self.straight(far)) * 36 + seen,
-                ((min(self.left[u], 8) - 1) * 8 + min(left, 7)) * 36 + seen,
-                (far_sides * 9 + sides) * 36 + seen,
-                ((self.facing(e) * 3 + self.facing(far)) * 16 + self.history) * 36 + seen,
-                (self.beside(e) * 9 + self.beside(far)) * 36 + seen]
+    def step(self, e, count):
+        """So many corners back; forwards for negative counts."""
+        for _ in range(abs(count)):
+            e = (self.ends.back if count > 0 else self.ends.across).get(e)
+        return e
 
-    def straight(self, x):
-        forwards = self.ends.across.get(self.ends.across.get(x))
-        return self.flag(forwards) if forwards == self.ends.back.get(self.ends.back.get(x)) else 0
+    def known(self, end):
+        if end is None or self.ends.umbrellas[end] not in self.is_touched:
+            return 0
+        return 2 if end in self.given else self.told.get(end, 0)
+
+    def around(self, e):
+        known = [self.known(self.step(e, count)) for count in (-1, 1, -2, 2)]
+        return ((known[0] * 3 + known[1]) * 3 + known[2]) * 3 + known[3]
 
     def edge(self, x):
-        twin = self.ends.twins[x]
-        return 0 if twin is None else max(self.flag(x), self.flag(twin))
+        return max(self.told.get(x, 0), self.told.get(self.ends.twins[x], 0))
 
     def facing(self, x):
         following = self.ends.following
@@ -177,19 +272,15 @@ class FlagPass:
         return self.edge(self.ends.following[x]) * 3 + self.edge(self.ends.preceding[x])
 
 
-def runs(ends, parted):
-    """Per corner the first corner of its run."""
-    first = {}
-    for corner in range(len(ends.umbrellas)):
-        c = corner
-        while c is not None and c not in first:
-            first[c] = corner
-            c = None if c in parted else ends.across.get(c)
-        c = ends.back.get(corner)
-        while c is not None and c not in parted and c not in first:
-            first[c] = corner
-            c = ends.back.get(c)
-    return first
+def runs(ends, parted, u):
+    """The runs of an umbrella as lists of corners, and whether the last one meets the first."""
+    ring = ends.rings[u]
+    starts = [i for i, c in enumerate(ring) if i == 0 or c in parted]
+    found = [ring[i:j] for i, j in zip(starts, starts[1:] + [len(ring)])]
+    closed = u not in ends.open
+    if closed and ring[0] not in parted and len(found) > 1:
+        found[0] += found.pop()
+    return found, closed
 
 
 class PartModels:
@@ -218,25 +309,29 @@ def part(stream, ends, wholes, count):
     """Per corner its part, how many there are, and the parted ends."""
     given = {c for c in ends.all if wholes[c] != wholes[ends.across[c]]}
     parted = FlagPass(ends, ends.all - given, given).run(stream)
-    first, used, seen, models = runs(ends, parted), [0] * count, set(), [PartModels(), PartModels()]
-    neighbours, local = {}, {}
-    for end in parted:
-        neighbours.setdefault(first[end], set()).add(first[ends.across[end]])
-        neighbours.setdefault(first[ends.across[end]], set()).add(first[end])
-    for c in sorted(set(first.values())):
-        whole, umbrella = wholes[c], ends.umbrellas[c]
-        barred = {local[run] for run in neighbours.get(c, ()) if run in local and wholes[run] == whole}
-        choices = [number for number in range(used[whole]) if number not in barred]
-        chosen = models[umbrella in seen].read(stream, len(choices))
-        local[c] = used[whole] if chosen is None else choices[chosen]
-        used[whole] += chosen is None
-        seen.add(umbrella)
+    used, models, local = [0] * count, [PartModels(), PartModels()], {}
+    for u in range(len(ends.rings)):
+        found, closed = runs(ends, parted, u)
+        for i, run in enumerate(found):
+            whole = wholes[run[0]]
+            neighbours = found[max(i - 1, 0):i] + (found[:1] if closed and i + 1 == len(found) and i > 0 else [])
+            barred = {local[other[0]] for other in neighbours if wholes[other[0]] == whole}
+            choices = [number for number in range(used[whole]) if number not in barred]
+            chosen = models[i > 0].read(stream, len(choices))
+            number = used[whole] if chosen is None else choices[chosen]
+            used[whole] += chosen is None
+            for c in run:
+                local[c] = number
     base, total = [], 0
     for parts in used:
         base.append(total)
         total += max(parts, 1)
-    parts = [base[wholes[c]] + local[first[c]] for c in range(len(wholes))]
-    return parts, total, parted
+    numbers = {}
+    for c, whole in enumerate(wholes):  # parts are numbered by their first corners
+        if (whole, local[c]) not in numbers:
+            numbers[whole, local[c]] = base[whole]
+            base[whole] += 1
+    return [numbers[whole, local[c]] for c, whole in enumerate(wholes)], total, parted
 
 
 def decode(mesh, welded, attributes, data):
