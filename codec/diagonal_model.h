@@ -19,14 +19,14 @@ class DiagonalModel {
   /// The lower of the two corners (0 or 1) that the diagonal of a quad joins. Flipping a quad does not change it.
   template <class Port>
   Index code(Port& port, Index first_corner, Index apex) {
-    const uint32_t votes = votesFor(first_corner, 0) + swapped(votesFor(first_corner, 1)) + votesFor(first_corner, 2) +
-                           swapped(votesFor(first_corner, 3));
+    const Index* const twins = &mesh_.twins[first_corner];
+    const uint32_t votes = votesFor(twins[0]) + votesFor(twins[2]) + swapped(votesFor(twins[1]) + votesFor(twins[3]));
     const uint32_t first = votes % 8, second = votes / 8;
     const uint32_t context = std::min(first, 2u) * 3 + std::min(second, 2u);
     const bool diagonal = models_[context * 2 + last_wrong_].code(port, apex != 0);
     last_wrong_ = diagonal != (second > first);
-    const uint8_t even = diagonal ? kUntouched : kTouched, odd = diagonal ? kTouched : kUntouched;
-    std::ranges::copy(std::array{even, odd, even, odd}, &touched_[first_corner]);
+    static constexpr std::array<uint8_t, 5> kTouches{kTouched, kUntouched, kTouched, kUntouched, kTouched};
+    std::copy_n(&kTouches[diagonal], 4, &touched_[first_corner]);
     return diagonal;
   }
 
@@ -35,12 +35,9 @@ class DiagonalModel {
   // in bits 3 to 5.
   static constexpr uint8_t kUnknown = 0, kUntouched = 8, kTouched = 1;
 
-  uint32_t votesFor(Index first_corner, Index i) const {
-    const Index twin = mesh_.twins[first_corner + i];
-    return twin == kNone ? kUnknown : touched_[twin];
-  }
+  uint32_t votesFor(Index twin) const { return twin == kNone ? kUnknown : touched_[twin]; }
 
-  // As the vote of the quad beyond an odd edge.
+  // As votes of quads beyond odd edges.
   static uint32_t swapped(uint32_t vote) { return vote / 8 + vote % 8 * 8; }
 
   const Connectivity& mesh_;

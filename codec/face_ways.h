@@ -92,6 +92,10 @@ class FaceWays {
     return prev == corner ? acrossLarge(corner) : prev;
   }
 
+  /// Per corner what AnyFaces needs; empty: all faces are triangles.
+  std::span<const uint32_t> shapes() const { return shapes_; }
+  bool hasLarge() const { return !large_.empty(); }
+
   /// At most 255.
   Index degree(Index corner) const { return shapes_.empty() ? 3 : AnyFaces{shapes_.data()}.degree(corner); }
 

@@ -96,6 +96,15 @@ class Output {
     }
   }
 
+  /// Of a quad, whose fan starts at the first or at the second corner.
+  void quad(Index face, Index first, Index apex) {
+    Index* const out = begin(face, 2);
+    out[0] = out[3] = first + apex;
+    out[1] = first + apex + 1;
+    out[2] = out[4] = first + apex + 2;
+    out[5] = first + (apex == 0 ? 3 : 0);
+  }
+
   void triangle(Index face, const Triangle& corners) { std::ranges::copy(corners, begin(face, 1)); }
 
   /// Afterwards.
@@ -127,8 +136,16 @@ class Decoder {
     script_.header(false);
   }
 
+  /// Of a polygon without holes: is it a quad of which nothing is coded but the diagonal?
+  bool isPlainQuad(Index degree) const { return degree == 4 && script_.hasPlainQuads() && left_ >= 2; }
+
+  Error quad(Index face, Index first) {
+    output_.quad(face, first, script_.quad(first, 0));
+    left_ -= 2;
+    return port_.overrun() ? Error::kTruncated : Error::kNone;
+  }
+
   Error polygon(Index face, const Polygon& polygon) {
-    if (script_.isPlainQuad(polygon) && left_ >= 2) return quad(face, polygon.exterior.first);
     script_.polygon(polygon, shape_);
     if (shape_.kind == Kind::kList) return list(face, polygon);
     if (polygon.exterior.degree - 2 > left_) return Error::kLimitExceeded;
@@ -145,12 +162,6 @@ class Decoder {
   void finish() { output_.finish(); }
 
  private:
-  Error quad(Index face, Index first) {
-    output_.fan(face, {first, 4, 0}, script_.quad(first, 0));
-    left_ -= 2;
-    return port_.overrun() ? Error::kTruncated : Error::kNone;
-  }
-
   Error list(Index face, const Polygon& polygon) {
     const Index count = script_.listLength(0);
     if (count > left_) return Error::kLimitExceeded;
@@ -223,10 +234,14 @@ Result<Triangulation> decodeTriangulation(const Connectivity& mesh, std::span<co
   RangeReader port(bytes);
   Triangulation result;
   Decoder decoder(port, mesh, max_triangles, result);
-  for (Index face = 0; face < mesh.face_degrees.size(); ++face) {
-    const Polygon polygon = polygons[face];
-    if (polygons.isHole(face) || !polygon.drawable()) continue;
-    if (const Error error = decoder.polygon(face, polygon); error != Error::kNone) return error;
+  for (Index face = 0, count = polygons.size(); face < count; ++face) {
+    Error error = Error::kNone;
+    if (ring_owners.empty() && decoder.isPlainQuad(mesh.face_degrees[face])) {
+      error = decoder.quad(face, polygons.firstCorner(face));
+    } else if (const Polygon polygon = polygons[face]; !polygons.isHole(face) && polygon.drawable()) {
+      error = decoder.polygon(face, polygon);
+    }
+    if (error != Error::kNone) return error;
   }
   if (port.trailing()) return Error::kTrailingBytes;
   decoder.finish();

@@ -33,10 +33,8 @@ class TriangulationScript {
     }
   }
 
-  /// Nothing but its diagonal is coded.
-  bool isPlainQuad(const Polygon& polygon) const {
-    return polygon.exterior.degree == 4 && polygon.holes.empty() && !lists_;
-  }
+  /// Of quads without holes nothing but the diagonal is coded.
+  bool hasPlainQuads() const { return !lists_; }
   /// The corner at which a plain quad's fan starts.
   Index quad(Index first_corner, Index apex) { return diagonals_.code(port_, first_corner, apex); }
 

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <optional>
 
-#include "codec/triangulation.h"
+#include "codec/umbrella_ways.h"
 
 namespace tutte {
 namespace {
@@ -39,19 +39,54 @@ class Partition {
 
 }  // namespace
 
-ValueGraph::ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count, bool parted)
-    : sites_(sites), twins_(mesh.twins), copies_(mesh.copies), starts_(site_count, kNone) {
-  Index counted = cornerCount();
-  if (!onlyTriangles(mesh.face_degrees)) {
-    shapes_ = faceShapes(mesh.face_degrees, sites_.size());
-    cutLargeFaces(mesh.face_degrees);
-    // Faces of degree below 3 come last.
-    for (size_t f = mesh.face_degrees.size(); f > 0 && mesh.face_degrees[f - 1] < 3; --f)
-      counted -= mesh.face_degrees[f - 1];
+ValueGraph::ValueGraph(const Connectivity& mesh, Index site_count, std::shared_ptr<const MeshWays> ways)
+    : ways_(ways ? std::move(ways) : std::make_shared<const MeshWays>(mesh)),
+      sites_(mesh.umbrellas),
+      twins_(mesh.twins),
+      copies_(mesh.copies),
+      shapes_(ways_->faces.shapes()) {
+  const Index counted = cutLargeFaces(mesh.face_degrees);
+  const std::vector<Index>& firsts = ways_->firsts;
+  if (own_twins_.empty() && counted == cornerCount() && site_count == firsts.size()) {
+    starts_ = firsts;
+    return;
   }
-  if (parted) withFaces([&](const auto& faces) { cutSeams(faces); });
-  const bool umbrellas = sites_.data() == mesh.umbrellas.data() && own_twins_.empty();
-  umbrellas ? findFirstCorners(twins_.first(counted), sites_.first(counted), starts_) : listFans(mesh, counted);
+  own_starts_.assign(site_count, kNone);
+  starts_ = own_starts_;
+  if (!own_twins_.empty()) {
+    listFans(mesh, counted);
+    return;
+  }
+  for (size_t umbrella = 0; umbrella < firsts.size(); ++umbrella) {
+    if (firsts[umbrella] < counted) own_starts_[umbrella] = firsts[umbrella];
+  }
+}
+
+ValueGraph::ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count)
+    : ways_(std::make_shared<const MeshWays>(mesh)),
+      sites_(sites),
+      twins_(mesh.twins),
+      copies_(mesh.copies),
+      shapes_(ways_->faces.shapes()),
+      own_starts_(site_count, kNone) {
+  starts_ = own_starts_;
+  const Index counted = cutLargeFaces(mesh.face_degrees);
+  withFaces([&](const auto& faces) { cutSeams(faces); });
+  listFans(mesh, counted);
+}
+
+ValueGraph::ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count, const KnownMesh& known)
+    : ways_(known.ways),
+      sites_(sites),
+      twins_(mesh.twins),
+      copies_(mesh.copies),
+      shapes_(ways_->faces.shapes()),
+      own_starts_(site_count, kNone) {
+  starts_ = own_starts_;
+  const Index counted = cutLargeFaces(mesh.face_degrees);
+  const bool large = !own_twins_.empty();
+  cutSeamsOf(mesh, known.parted);
+  large ? listFans(mesh, counted) : listFansOf(mesh, counted, known.parted);
 }
 
 // Makes a boundary of an edge.
@@ -64,12 +99,16 @@ void ValueGraph::cut(Index corner) {
   own_twins_[corner] = kNone;
 }
 
-void ValueGraph::cutLargeFaces(std::span<const Index> face_degrees) {
+// Returns how many corners count: faces of degree below 3, whose corners do not, come last.
+Index ValueGraph::cutLargeFaces(std::span<const Index> face_degrees) {
   Index first = 0;
-  for (const Index degree : face_degrees) {
-    if (degree > kMostWays) cut(first), cut(first + degree - 1);
-    first += degree;
+  for (size_t f = 0; ways_->faces.hasLarge() && f < face_degrees.size(); ++f) {
+    if (face_degrees[f] > kMostWays) cut(first), cut(first + face_degrees[f] - 1);
+    first += face_degrees[f];
   }
+  Index counted = cornerCount();
+  for (size_t f = face_degrees.size(); f > 0 && face_degrees[f - 1] < 3; --f) counted -= face_degrees[f - 1];
+  return counted;
 }
 
 // At edges whose sides have different sites.
@@ -86,14 +125,70 @@ void ValueGraph::cutSeams(const Faces& faces) {
   }
 }
 
+// The same, where only these umbrellas have different sites.
+void ValueGraph::cutSeamsOf(const Connectivity& mesh, std::span<const Index> umbrellas) {
+  const UmbrellaWays ways(mesh, *ways_);
+  for (const Index umbrella : umbrellas) {
+    ways.goRound(umbrella, [&](Index c) {
+      const Index twin = ways.twin(c);
+      if (twin == kNone) return;
+      if (sites_[twin] != sites_[ways.next(c)] || sites_[ways.next(twin)] != sites_[c]) cut(c);
+    });
+  }
+}
+
 inline void ValueGraph::addFan(Index first) {
-  Index& fans = starts_[sites_[first]];
+  Index& fans = own_starts_[sites_[first]];
   if (fans == kNone) {
     fans = first;
     return;
   }
   fans_.push_back({first, fans});
   fans = kSeveral + static_cast<Index>(fans_.size() - 1);
+}
+
+// All fans of sites that have several.
+void ValueGraph::addFans(const Connectivity& mesh, std::vector<Index>& firsts) {
+  for (size_t i = 0, count = firsts.size(); i < count; ++i) {
+    Index& fan = own_starts_[sites_[firsts[i]]];
+    if (fan != kNone) firsts.push_back(std::exchange(fan, kNone));
+  }
+  // As in listFans().
+  std::ranges::sort(firsts, [&](Index a, Index b) {
+    const bool open = twins_[a] == kNone;
+    if (open != (twins_[b] == kNone)) return !open;
+    return open ? a > b : mesh.umbrellas[a] > mesh.umbrellas[b];
+  });
+  for (const Index first : firsts) addFan(first);
+}
+
+// The same as listFans(), where only the parted umbrellas are cut.
+void ValueGraph::listFansOf(const Connectivity& mesh, Index counted, std::span<const Index> parted) {
+  const UmbrellaWays ways(mesh, *ways_);
+  std::vector<Index> others;  // of sites that have a fan
+  const auto add = [&](Index first) {
+    Index& fan = own_starts_[sites_[first]];
+    fan == kNone ? void(fan = first) : others.push_back(first);
+  };
+  const auto addParted = [&](Index umbrella) {
+    bool open = false;
+    ways.goRound(umbrella, [&](Index corner) {
+      if (twins_[corner] != kNone) return;
+      open = true;
+      add(corner);
+    });
+    if (!open) add(ways.first(umbrella));
+  };
+  auto next = parted.begin();
+  for (Index umbrella = 0; umbrella < mesh.umbrella_count; ++umbrella) {
+    if (next != parted.end() && *next == umbrella) {
+      ++next;
+      addParted(umbrella);
+    } else if (ways.first(umbrella) < counted) {
+      add(ways.first(umbrella));
+    }
+  }
+  if (!others.empty()) addFans(mesh, others);
 }
 
 // The last one first, so that each is put before those of its site that are known.
@@ -143,10 +238,27 @@ WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, I
   return partition ? std::move(*partition).number() : WedgeSites{{}, wedge_count};
 }
 
-WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count) {
-  WedgeSites sites{std::vector<Index>(wedge_count, kNone), 0};
-  for (Index c = 0; c < wedges.size(); ++c) sites.site_of[wedges[c]] = mesh.vertexOf(c);
-  std::vector<Index> site_of_vertex(mesh.vertex_count, kNone);
+WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
+                      std::span<const uint8_t> seams, const KnownMesh& known) {
+  std::optional<Partition> partition;
+  const UmbrellaWays ways(mesh, *known.ways);
+  for (const Index umbrella : known.parted) {
+    ways.goRound(umbrella, [&](Index c) {
+      const Index across = ways.across(c);
+      if (across == kNone || wedges[c] == wedges[across] || (!seams.empty() && seams[c] != 0)) return;
+      if (!partition) partition.emplace(wedge_count);
+      partition->join(wedges[c], wedges[across]);
+    });
+  }
+  return partition ? std::move(*partition).number() : WedgeSites{{}, wedge_count};
+}
+
+namespace {
+
+/// From the vertices of wedges, kNone for those that no corner uses.
+WedgeSites numberVertices(std::vector<Index> vertex_of, Index vertex_count) {
+  WedgeSites sites{std::move(vertex_of), 0};
+  std::vector<Index> site_of_vertex(vertex_count, kNone);
   for (Index& vertex : sites.site_of) {
     Index isolated = kNone;
     Index& site = vertex == kNone ? isolated : site_of_vertex[vertex];
@@ -154,6 +266,25 @@ WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges,
     vertex = site;
   }
   return sites;
+}
+
+}  // namespace
+
+WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count) {
+  std::vector<Index> vertex_of(wedge_count, kNone);
+  for (Index c = 0; c < wedges.size(); ++c) vertex_of[wedges[c]] = mesh.vertexOf(c);
+  return numberVertices(std::move(vertex_of), mesh.vertex_count);
+}
+
+WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
+                        const KnownMesh& known) {
+  std::vector<Index> vertex_of(wedge_count, kNone);
+  const UmbrellaWays ways(mesh, *known.ways);
+  for (const Index first : known.ways->firsts) vertex_of[wedges[first]] = mesh.vertexOf(first);
+  for (const Index umbrella : known.parted) {
+    ways.goRound(umbrella, [&](Index c) { vertex_of[wedges[c]] = mesh.vertexOf(c); });
+  }
+  return numberVertices(std::move(vertex_of), mesh.vertex_count);
 }
 
 }  // namespace tutte

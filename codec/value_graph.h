@@ -4,27 +4,37 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "codec/face_ways.h"
 #include "codec/mesh.h"
+#include "codec/mesh_ways.h"
 
 namespace tutte {
 
-/// The sites of one attribute over a mesh, as predictors see them. 4 bytes per site, and 4 more per corner each: where
-/// not all faces are triangles, and where seams part faces.
+/// What is known of a mesh that a decoder or an encoder has made, so that most of it need not be looked at.
+struct KnownMesh {
+  std::shared_ptr<const MeshWays> ways;
+  std::span<const Index> parted;  ///< in ascending order, all umbrellas that have several wedges; must stay
+};
+
+/// The sites of one attribute over a mesh, as predictors see them. 4 bytes per site unless the sites are all umbrellas,
+/// 4 bytes per corner where seams part faces, and what MeshWays takes, which others may have, too.
 ///
 /// In a face of more than 2048 corners, the first one's predecessor and the last one's successor are these themselves,
 /// and both ones' edges are boundaries.
 class ValueGraph {
  public:
   /// The sites are the umbrellas, and behind them those that no corner uses. The mesh must stay as and where it is.
-  /// O(corners), as the other one.
-  ValueGraph(const Connectivity& mesh, Index site_count) : ValueGraph(mesh, mesh.umbrellas, site_count, false) {}
-  /// `sites`, too, must stay: per corner a number below `site_count`. `parted`: an umbrella may lie in several.
-  ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count, bool parted = true);
+  /// O(corners), as the next one; with `ways` O(umbrellas).
+  ValueGraph(const Connectivity& mesh, Index site_count, std::shared_ptr<const MeshWays> ways = nullptr);
+  /// `sites`, too, must stay: per corner a number below `site_count`. An umbrella may lie in several.
+  ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count);
+  /// The same, O(umbrellas).
+  ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count, const KnownMesh& known);
   ValueGraph(ValueGraph&&) = default;
 
   static constexpr Index kMostCorners = 60;  ///< of a site; further ones are not looked at
@@ -119,17 +129,22 @@ class ValueGraph {
 
   AnyFaces any() const { return {shapes_.data()}; }
   void cut(Index corner);
-  void cutLargeFaces(std::span<const Index> face_degrees);
+  Index cutLargeFaces(std::span<const Index> face_degrees);
   template <class Faces>
   void cutSeams(const Faces& faces);
+  void cutSeamsOf(const Connectivity& mesh, std::span<const Index> umbrellas);
   void listFans(const Connectivity& mesh, Index counted);
+  void listFansOf(const Connectivity& mesh, Index counted, std::span<const Index> parted);
   void addFan(Index first);
+  void addFans(const Connectivity& mesh, std::vector<Index>& firsts);
 
+  std::shared_ptr<const MeshWays> ways_;
   std::span<const Index> sites_, twins_;  // per corner
   std::vector<Index> own_twins_;          // empty: the mesh's
   std::span<const ComponentCopy> copies_;
-  std::vector<uint32_t> shapes_;  // per corner; empty: all triangles
-  std::vector<Index> starts_;     // per site its fans
+  std::span<const uint32_t> shapes_;  // per corner; empty: all triangles
+  std::span<const Index> starts_;     // per site its fans
+  std::vector<Index> own_starts_;     // empty: the ways'
   std::vector<Fan> fans_;
 };
 
@@ -143,8 +158,14 @@ struct WedgeSites {
 /// below `wedge_count`; `seams` is per corner, 1 where the edge to the next corner is a seam, or empty. O(corners).
 WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
                       std::span<const uint8_t> seams);
+/// The same, O(corners of parted umbrellas).
+WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
+                      std::span<const uint8_t> seams, const KnownMesh& known);
 
 /// Joins all wedges of a vertex. O(corners).
 WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count);
+/// The same, O(umbrellas).
+WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
+                        const KnownMesh& known);
 
 }  // namespace tutte

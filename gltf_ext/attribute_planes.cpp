@@ -97,13 +97,22 @@ void toFractions(const Attribute& attribute, const AttributeCoding& coding, Plan
   });
 }
 
+template <size_t kComponents, class Make>
+void storeFloats(std::span<const int32_t> numbers, uint8_t* data, Make make) {
+  for (size_t i = 0; i + kComponents <= numbers.size(); i += kComponents) {
+    for (size_t c = 0; c < kComponents; ++c, data += 4) storeFloat(data, make(numbers[i + c], c));
+  }
+}
+
 /// Stores make(number, component) for each number.
 template <class Make>
 void storeFloats(const Plane& in, Attribute& out, Make make) {
-  uint8_t* data = out.data.data();
-  const size_t components = out.components;
-  for (size_t i = 0; i < in.values.size(); i += components) {
-    for (size_t c = 0; c < components; ++c, data += 4) storeFloat(data, make(in.values[i + c], c));
+  uint8_t* const data = out.data.data();
+  switch (out.components) {
+    case 1: return storeFloats<1>(in.values, data, make);
+    case 2: return storeFloats<2>(in.values, data, make);
+    case 3: return storeFloats<3>(in.values, data, make);
+    default: return storeFloats<4>(in.values, data, make);
   }
 }
 

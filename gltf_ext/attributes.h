@@ -2,11 +2,13 @@
 // Attributes coded over the decoded connectivity. The door behind which the Draco mode stands (and others will).
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "codec/mesh.h"
+#include "codec/mesh_ways.h"
 #include "gltf_ext/attribute_coding.h"
 #include "gltf_ext/failure.h"
 #include "gltf_ext/pack.h"
@@ -23,6 +25,9 @@ struct AttributeTopology {
   /// attribute (its values differ at an end). An empty span: no seams. Attribute 0 is POSITION and has none.
   std::vector<std::span<const uint8_t>> seams;
   bool trusted = false;  ///< is as encoders and decoders make it; otherwise that is checked first
+  /// If trusted, and if they are there: the connectivity's, and as in Seams. Without ways there are no seams.
+  std::shared_ptr<const MeshWays> ways{};
+  std::span<const Index> parted_umbrellas{};
 };
 
 /// Codes the attributes (given in coded wedge order). The bytes decode with decodeAttributes() over an equal topology.

@@ -32,7 +32,10 @@ inline Index siteOf(const WedgeSites& wedges, size_t wedge) {
 /// topology, which must be consistent.
 class SiteLayouts {
  public:
-  explicit SiteLayouts(const AttributeTopology& topology) : topology_(topology), whole_(whole()) {}
+  explicit SiteLayouts(const AttributeTopology& topology)
+      : topology_(topology), known_{topology.ways, topology.parted_umbrellas}, whole_(whole()) {
+    if (topology.trusted && !known_.ways) known_.ways = std::make_shared<const MeshWays>(topology.connectivity);
+  }
 
   SiteLayout& get(size_t attribute) {
     const bool positions = attribute == 0;
@@ -60,14 +63,20 @@ class SiteLayouts {
     return sites.data() == umbrellas.data() || std::ranges::equal(sites, umbrellas);
   }
 
+  WedgeSites joined(bool positions, std::span<const uint8_t> seams) const {
+    const Connectivity& mesh = topology_.connectivity;
+    const std::span<const Index> wedges = topology_.wedges;
+    const Index count = topology_.wedge_count;
+    if (whole_) return {{}, count};
+    if (!known_.ways) return positions ? joinVertices(mesh, wedges, count) : joinWedges(mesh, wedges, count, seams);
+    return positions ? joinVertices(mesh, wedges, count, known_) : joinWedges(mesh, wedges, count, seams, known_);
+  }
+
   std::unique_ptr<SiteLayout> make(bool positions, std::span<const uint8_t> seams) const {
     const Connectivity& mesh = topology_.connectivity;
     const std::span<const Index> wedges = topology_.wedges;
     auto layout = std::make_unique<SiteLayout>();
-    layout->wedges = whole_      ? WedgeSites{{}, topology_.wedge_count}
-                     : positions ? joinVertices(mesh, wedges, topology_.wedge_count)
-                                 : joinWedges(mesh, wedges, topology_.wedge_count, seams);
-    const bool parted = !topology_.trusted || !(positions || whole_);
+    layout->wedges = joined(positions, seams);
     std::span<const Index> sites = wedges;
     if (positions && topology_.trusted && mesh.vertices.empty()) {
       sites = mesh.umbrellas;
@@ -77,15 +86,18 @@ class SiteLayouts {
       sites = layout->sites;
     }
     if (areUmbrellas(sites)) {
-      layout->graph.emplace(mesh, layout->wedges.count);
+      layout->graph.emplace(mesh, layout->wedges.count, known_.ways);
       layout->sites = std::vector<Index>();
+    } else if (known_.ways) {
+      layout->graph.emplace(mesh, sites, layout->wedges.count, known_);
     } else {
-      layout->graph.emplace(mesh, sites, layout->wedges.count, parted);
+      layout->graph.emplace(mesh, sites, layout->wedges.count);
     }
     return layout;
   }
 
   const AttributeTopology& topology_;
+  KnownMesh known_;  ///< without ways where nothing is known
   const bool whole_;
   const std::span<const uint8_t> none_;
   std::vector<Entry> entries_;
