@@ -134,6 +134,7 @@ class LevelCoder {
       part = part_at_[place];
       corner = std::min(corner, rings_.corner(place));
     }
+    if (std::ranges::is_sorted(lowest_)) return;
     std::ranges::sort(lowest_);
     order_.resize(count);
     for (Index i = 0; i < count; ++i) order_[lowest_[i].second] = i;

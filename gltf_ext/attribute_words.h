@@ -22,12 +22,13 @@ inline void storeBytes(uint8_t* data, uint32_t size, uint32_t value) {
 
 inline float loadFloat(const uint8_t* data) { return std::bit_cast<float>(loadBytes(data, 4)); }
 
-/// Without a loop, so that compilers make one store of it.
+/// As one store, where that is the order of bytes: compilers do not always see it.
 [[gnu::always_inline]] inline void storeFourBytes(uint8_t* data, uint32_t value) {
-  data[0] = static_cast<uint8_t>(value);
-  data[1] = static_cast<uint8_t>(value >> 8);
-  data[2] = static_cast<uint8_t>(value >> 16);
-  data[3] = static_cast<uint8_t>(value >> 24);
+  if constexpr (std::endian::native == std::endian::little) {
+    std::memcpy(data, &value, 4);
+  } else {
+    storeBytes(data, 4, value);
+  }
 }
 inline void storeFloat(uint8_t* data, float value) { storeFourBytes(data, std::bit_cast<uint32_t>(value)); }
 
