@@ -84,9 +84,14 @@ ValueGraph::ValueGraph(const Connectivity& mesh, std::span<const Index> sites, I
       own_starts_(site_count, kNone) {
   starts_ = own_starts_;
   const Index counted = cutLargeFaces(mesh.face_degrees);
-  const bool large = !own_twins_.empty();
-  cutSeamsOf(mesh, known.parted);
-  large ? listFans(mesh, counted) : listFansOf(mesh, counted, known.parted);
+  // Going round many umbrellas takes longer than looking at all corners.
+  if (own_twins_.empty() && known.parted.size() <= mesh.umbrella_count / 4) {
+    cutSeamsOf(mesh, known.parted);
+    listFansOf(mesh, counted, known.parted);
+  } else {
+    withFaces([&](const auto& faces) { cutSeams(faces); });
+    listFans(mesh, counted);
+  }
 }
 
 // Makes a boundary of an edge.
