@@ -86,12 +86,11 @@ ValueGraph::ValueGraph(const Connectivity& mesh, std::span<const Index> sites, I
   const Index counted = cutLargeFaces(mesh.face_degrees);
   // Going round many umbrellas takes longer than looking at all corners.
   if (own_twins_.empty() && known.parted.size() <= mesh.umbrella_count / 4) {
-    cutSeamsOf(mesh, known.parted);
-    listFansOf(mesh, counted, known.parted);
-  } else {
-    withFaces([&](const auto& faces) { cutSeams(faces); });
-    listFans(mesh, counted);
+    listFansOf(mesh, counted, cutSeamsOf(mesh, known.parted));
+    return;
   }
+  withFaces([&](const auto& faces) { cutSeams(faces); });
+  listFans(mesh, counted);
 }
 
 // Makes a boundary of an edge.
@@ -130,16 +129,23 @@ void ValueGraph::cutSeams(const Faces& faces) {
   }
 }
 
-// The same, where only these umbrellas have different sites.
-void ValueGraph::cutSeamsOf(const Connectivity& mesh, std::span<const Index> umbrellas) {
+// The same, where only these umbrellas have different sites. Returns the umbrellas at both ends of what was cut.
+std::vector<Index> ValueGraph::cutSeamsOf(const Connectivity& mesh, std::span<const Index> umbrellas) {
   const UmbrellaWays ways(mesh, *ways_);
+  std::vector<Index> opened;
   for (const Index umbrella : umbrellas) {
     ways.goRound(umbrella, [&](Index c) {
       const Index twin = ways.twin(c);
       if (twin == kNone) return;
-      if (sites_[twin] != sites_[ways.next(c)] || sites_[ways.next(twin)] != sites_[c]) cut(c);
+      if (sites_[twin] == sites_[ways.next(c)] && sites_[ways.next(twin)] == sites_[c]) return;
+      cut(c);
+      opened.push_back(umbrella);
+      opened.push_back(ways.umbrella(twin));
     });
   }
+  std::ranges::sort(opened);
+  opened.erase(std::ranges::unique(opened).begin(), opened.end());
+  return opened;
 }
 
 inline void ValueGraph::addFan(Index first) {
@@ -167,15 +173,15 @@ void ValueGraph::addFans(const Connectivity& mesh, std::vector<Index>& firsts) {
   for (const Index first : firsts) addFan(first);
 }
 
-// The same as listFans(), where only the parted umbrellas are cut.
-void ValueGraph::listFansOf(const Connectivity& mesh, Index counted, std::span<const Index> parted) {
+// The same as listFans(), where only these umbrellas have edges that were cut.
+void ValueGraph::listFansOf(const Connectivity& mesh, Index counted, std::span<const Index> opened) {
   const UmbrellaWays ways(mesh, *ways_);
   std::vector<Index> others;  // of sites that have a fan
   const auto add = [&](Index first) {
     Index& fan = own_starts_[sites_[first]];
     fan == kNone ? void(fan = first) : others.push_back(first);
   };
-  const auto addParted = [&](Index umbrella) {
+  const auto addOpened = [&](Index umbrella) {
     bool open = false;
     ways.goRound(umbrella, [&](Index corner) {
       if (twins_[corner] != kNone) return;
@@ -184,11 +190,11 @@ void ValueGraph::listFansOf(const Connectivity& mesh, Index counted, std::span<c
     });
     if (!open) add(ways.first(umbrella));
   };
-  auto next = parted.begin();
+  auto next = opened.begin();
   for (Index umbrella = 0; umbrella < mesh.umbrella_count; ++umbrella) {
-    if (next != parted.end() && *next == umbrella) {
+    if (next != opened.end() && *next == umbrella) {
       ++next;
-      addParted(umbrella);
+      addOpened(umbrella);
     } else if (ways.first(umbrella) < counted) {
       add(ways.first(umbrella));
     }
