@@ -8,6 +8,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "codec/face_ways.h"
@@ -41,9 +42,12 @@ class JoinCandidates {
     }
     if (found_ == 0 && !lone_) return;
     for (const Index neighbor : neighbors) settle(mesh_.vertices[neighbor]);
-    std::stable_sort(candidates_.begin(), candidates_.begin() + found_, [&](const Candidate& a, const Candidate& b) {
-      return a.votes != b.votes ? a.votes > b.votes : vertices_[a.vertex].umbrellas < vertices_[b.vertex].umbrellas;
-    });
+    // They are few.
+    for (int i = 1; i < found_; ++i) {
+      for (int j = i; j > 0 && isLikelier(candidates_[j], candidates_[j - 1]); --j) {
+        std::swap(candidates_[j], candidates_[j - 1]);
+      }
+    }
   }
 
   int count() const { return std::min(found_, kMostRanks); }
@@ -85,6 +89,10 @@ class JoinCandidates {
     Index last;       ///< of its umbrellas
     Index umbrellas;  ///< how many there are
   };
+
+  bool isLikelier(const Candidate& a, const Candidate& b) const {
+    return a.votes != b.votes ? a.votes > b.votes : vertices_[a.vertex].umbrellas < vertices_[b.vertex].umbrellas;
+  }
 
   /// The first of an umbrella's neighbours that are below a number: one per edge, in the order round it.
   template <size_t kMost>

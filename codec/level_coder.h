@@ -11,6 +11,7 @@
 #include "codec/end_flags.h"
 #include "codec/mesh.h"
 #include "codec/run_parts.h"
+#include "codec/sorting.h"
 #include "codec/touch_flags.h"
 #include "codec/umbrella_ways.h"
 
@@ -128,16 +129,15 @@ class LevelCoder {
   // Numbers a ring's parts by their first corners, where they are a whole's.
   void sortParts(const EndRing& ring, Index count) {
     if (count < 2) return;
-    lowest_.assign(count, {kNone, 0});
+    lowest_.assign(count, ~uint64_t{0});
     for (Index place = ring.first; place < ring.end(); ++place) {
-      auto& [corner, part] = lowest_[part_at_[place]];
-      part = part_at_[place];
-      corner = std::min(corner, rings_.corner(place));
+      uint64_t& lowest = lowest_[part_at_[place]];
+      lowest = std::min(lowest, pairOf(rings_.corner(place), part_at_[place]));
     }
     if (std::ranges::is_sorted(lowest_)) return;
-    std::ranges::sort(lowest_);
+    sortNumbers(lowest_);
     order_.resize(count);
-    for (Index i = 0; i < count; ++i) order_[lowest_[i].second] = i;
+    for (Index i = 0; i < count; ++i) order_[secondOf(lowest_[i])] = i;
     for (Index place = ring.first; place < ring.end(); ++place) part_at_[place] = order_[part_at_[place]];
   }
 
@@ -152,9 +152,12 @@ class LevelCoder {
   }
 
   std::vector<Index> touched() const {
+    std::vector<uint8_t> is_touched(ways_.mesh().umbrella_count);
+    for (const EndRing& ring : rings_.rings()) is_touched[ring.umbrella] = 1;
     std::vector<Index> umbrellas;
-    for (const EndRing& ring : rings_.rings()) umbrellas.push_back(ring.umbrella);
-    std::ranges::sort(umbrellas);
+    for (Index umbrella = 0; umbrella < is_touched.size(); ++umbrella) {
+      if (is_touched[umbrella] != 0) umbrellas.push_back(umbrella);
+    }
     return umbrellas;
   }
 
@@ -163,8 +166,8 @@ class LevelCoder {
   const Level& whole_;
   EdgeEnds ends_;
   EndRings rings_;
-  std::vector<Index> part_at_;                   ///< per place: its corner's part, within its whole
-  std::vector<std::pair<Index, Index>> lowest_;  ///< of sortParts()
+  std::vector<Index> part_at_;    ///< per place: its corner's part, within its whole
+  std::vector<uint64_t> lowest_;  ///< of sortParts(): per part its first corner, and the part
   std::vector<Index> order_;
   std::vector<Index> part_of_;  ///< the same per umbrella that is not touched; empty: all 0
 };

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <optional>
 
+#include "codec/sorting.h"
 #include "codec/umbrella_ways.h"
 
 namespace tutte {
@@ -129,22 +130,19 @@ void ValueGraph::cutSeams(const Faces& faces) {
   }
 }
 
-// The same, where only these umbrellas have different sites. Returns the umbrellas at both ends of what was cut.
-std::vector<Index> ValueGraph::cutSeamsOf(const Connectivity& mesh, std::span<const Index> umbrellas) {
+// The same, where only these umbrellas have different sites. Returns 1 for the umbrellas at both ends of what was cut.
+std::vector<uint8_t> ValueGraph::cutSeamsOf(const Connectivity& mesh, std::span<const Index> umbrellas) {
   const UmbrellaWays ways(mesh, *ways_);
-  std::vector<Index> opened;
+  std::vector<uint8_t> opened(mesh.umbrella_count);
   for (const Index umbrella : umbrellas) {
     ways.goRound(umbrella, [&](Index c) {
       const Index twin = ways.twin(c);
       if (twin == kNone) return;
       if (sites_[twin] == sites_[ways.next(c)] && sites_[ways.next(twin)] == sites_[c]) return;
       cut(c);
-      opened.push_back(umbrella);
-      opened.push_back(ways.umbrella(twin));
+      opened[umbrella] = opened[ways.umbrella(twin)] = 1;
     });
   }
-  std::ranges::sort(opened);
-  opened.erase(std::ranges::unique(opened).begin(), opened.end());
   return opened;
 }
 
@@ -164,17 +162,18 @@ void ValueGraph::addFans(const Connectivity& mesh, std::vector<Index>& firsts) {
     Index& fan = own_starts_[sites_[firsts[i]]];
     if (fan != kNone) firsts.push_back(std::exchange(fan, kNone));
   }
-  // As in listFans().
-  std::ranges::sort(firsts, [&](Index a, Index b) {
-    const bool open = twins_[a] == kNone;
-    if (open != (twins_[b] == kNone)) return !open;
-    return open ? a > b : mesh.umbrellas[a] > mesh.umbrellas[b];
-  });
-  for (const Index first : firsts) addFan(first);
+  // As in listFans(): closed ones from the last umbrella on, then open ones from the last corner on.
+  std::vector<uint64_t> order;
+  for (const Index first : firsts) {
+    const bool open = twins_[first] == kNone;
+    order.push_back(uint64_t{open} << 63 | pairOf(kNone / 2 - (open ? first : mesh.umbrellas[first]), first));
+  }
+  sortNumbers(order);
+  for (const uint64_t fan : order) addFan(secondOf(fan));
 }
 
 // The same as listFans(), where only these umbrellas have edges that were cut.
-void ValueGraph::listFansOf(const Connectivity& mesh, Index counted, std::span<const Index> opened) {
+void ValueGraph::listFansOf(const Connectivity& mesh, Index counted, std::span<const uint8_t> opened) {
   const UmbrellaWays ways(mesh, *ways_);
   std::vector<Index> others;  // of sites that have a fan
   const auto add = [&](Index first) {
@@ -190,10 +189,8 @@ void ValueGraph::listFansOf(const Connectivity& mesh, Index counted, std::span<c
     });
     if (!open) add(ways.first(umbrella));
   };
-  auto next = opened.begin();
   for (Index umbrella = 0; umbrella < mesh.umbrella_count; ++umbrella) {
-    if (next != opened.end() && *next == umbrella) {
-      ++next;
+    if (opened[umbrella] != 0) {
       addOpened(umbrella);
     } else if (ways.first(umbrella) < counted) {
       add(ways.first(umbrella));

@@ -132,9 +132,9 @@ class ValueGraph {
   Index cutLargeFaces(std::span<const Index> face_degrees);
   template <class Faces>
   void cutSeams(const Faces& faces);
-  std::vector<Index> cutSeamsOf(const Connectivity& mesh, std::span<const Index> umbrellas);
+  std::vector<uint8_t> cutSeamsOf(const Connectivity& mesh, std::span<const Index> umbrellas);
   void listFans(const Connectivity& mesh, Index counted);
-  void listFansOf(const Connectivity& mesh, Index counted, std::span<const Index> opened);
+  void listFansOf(const Connectivity& mesh, Index counted, std::span<const uint8_t> opened);
   void addFan(Index first);
   void addFans(const Connectivity& mesh, std::vector<Index>& firsts);
 

@@ -81,8 +81,9 @@ struct Way {
   bool ranked = false;
 };
 
-/// What an encoder tries; the smallest is kept. On large meshes it is told from so many sites.
-constexpr Index kMostTried = 2048;
+/// What an encoder tries; the smallest is kept. On large meshes it is told from so many sites: positions show early
+/// what suits them, other attributes may change from part to part.
+constexpr Index kMostTriedPositions = 2048, kMostTried = 8192;
 
 std::vector<Way> waysFor(PlaneKind kind) {
   switch (kind) {
@@ -199,11 +200,12 @@ void writePlane(const ValueSites& sites, const Plane& plane, std::span<const int
     if (way.kind == ValueKind::kDirection) format.weighting = findWeighting(sites, format, values);
   }
   Trials trials(sites, values);
-  ValueFormat format = trials.bestOf(formats, kMostTried);
+  const Index most = plane.kind == PlaneKind::kPosition ? kMostTriedPositions : kMostTried;
+  ValueFormat format = trials.bestOf(formats, most);
   if (repeats(values, plane.components)) {
     ValueFormat echoing = format.kind == ValueKind::kLabel ? formats.front() : format;
     echoing.echoes = true;
-    format = trials.bestOf(std::array{echoing, format}, kMostTried);
+    format = trials.bestOf(std::array{echoing, format}, most);
   }
   if (!sites.graph.copies().empty()) format = trials.bestOf(withCopies(format, formats.front()), kNone);
   if (profile == ValueProfile::kSmall) {  // where values are very regular, fewer contexts learn faster
