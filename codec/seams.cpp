@@ -144,7 +144,7 @@ std::vector<uint8_t> encodeSeams(const Connectivity& mesh, std::span<const Index
 Result<Seams> decodeSeams(const Connectivity& mesh, bool welded, std::span<const uint8_t> bytes,
                           Index attribute_count) {
   Seams seams;
-  seams.ways = std::make_shared<const MeshWays>(mesh);
+  seams.ways = std::make_unique<const MeshWays>(mesh);
   const UmbrellaWays ways(mesh, *seams.ways);
   RangeReader port(bytes);
   Levels levels = decodeLevels(port, ways, welded);

@@ -32,7 +32,7 @@ struct Seams {
   std::vector<std::vector<uint8_t>> attribute_seams;
   /// In ascending order, all umbrellas whose corners have different wedges. Edges without an end there are no seams.
   std::vector<Index> parted_umbrellas;
-  std::shared_ptr<const MeshWays> ways;  ///< the connectivity's, so that nobody has to make them again; may be null
+  std::unique_ptr<const MeshWays> ways;  ///< the connectivity's, so that nobody has to make them again; may be null
 };
 
 /// The vertex of each coded corner in the connectivity.

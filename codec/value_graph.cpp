@@ -40,12 +40,16 @@ class Partition {
 
 }  // namespace
 
-ValueGraph::ValueGraph(const Connectivity& mesh, Index site_count, std::shared_ptr<const MeshWays> ways)
-    : ways_(ways ? std::move(ways) : std::make_shared<const MeshWays>(mesh)),
-      sites_(mesh.umbrellas),
+ValueGraph::ValueGraph(const Connectivity& mesh, std::span<const Index> sites, const KnownMesh& known)
+    : own_ways_(known.ways ? nullptr : std::make_unique<const MeshWays>(mesh)),
+      ways_(known.ways ? known.ways : own_ways_.get()),
+      sites_(sites),
       twins_(mesh.twins),
       copies_(mesh.copies),
-      shapes_(ways_->faces.shapes()) {
+      shapes_(ways_->faces.shapes()) {}
+
+ValueGraph::ValueGraph(const Connectivity& mesh, Index site_count, const KnownMesh& known)
+    : ValueGraph(mesh, mesh.umbrellas, known) {
   const Index counted = cutLargeFaces(mesh.face_degrees);
   const std::vector<Index>& firsts = ways_->firsts;
   if (own_twins_.empty() && counted == cornerCount() && site_count == firsts.size()) {
@@ -63,30 +67,13 @@ ValueGraph::ValueGraph(const Connectivity& mesh, Index site_count, std::shared_p
   }
 }
 
-ValueGraph::ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count)
-    : ways_(std::make_shared<const MeshWays>(mesh)),
-      sites_(sites),
-      twins_(mesh.twins),
-      copies_(mesh.copies),
-      shapes_(ways_->faces.shapes()),
-      own_starts_(site_count, kNone) {
-  starts_ = own_starts_;
-  const Index counted = cutLargeFaces(mesh.face_degrees);
-  withFaces([&](const auto& faces) { cutSeams(faces); });
-  listFans(mesh, counted);
-}
-
 ValueGraph::ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count, const KnownMesh& known)
-    : ways_(known.ways),
-      sites_(sites),
-      twins_(mesh.twins),
-      copies_(mesh.copies),
-      shapes_(ways_->faces.shapes()),
-      own_starts_(site_count, kNone) {
+    : ValueGraph(mesh, sites, known) {
+  own_starts_.assign(site_count, kNone);
   starts_ = own_starts_;
   const Index counted = cutLargeFaces(mesh.face_degrees);
   // Going round many umbrellas takes longer than looking at all corners.
-  if (own_twins_.empty() && known.parted.size() <= mesh.umbrella_count / 4) {
+  if (known.ways && own_twins_.empty() && known.parted.size() <= mesh.umbrella_count / 4) {
     listFansOf(mesh, counted, cutSeamsOf(mesh, known.parted));
     return;
   }
@@ -228,71 +215,55 @@ ValueGraph::CornerList ValueGraph::corners(Index site) const {
 }
 
 WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
-                      std::span<const uint8_t> seams) {
-  std::optional<Partition> partition;
-  const Index* const twins = mesh.twins.data();
-  Index begin = 0;
-  for (const Index degree : mesh.face_degrees) {
-    const Index end = begin + degree;
-    for (Index c = begin; c < end; ++c) {
-      if (twins[c] == kNone) continue;
-      const Index behind = wedges[c + 1 == end ? begin : c + 1], beyond = wedges[twins[c]];
-      if (behind == beyond || (!seams.empty() && seams[c] != 0)) continue;
-      if (!partition) partition.emplace(wedge_count);
-      partition->join(behind, beyond);
-    }
-    begin = end;
-  }
-  return partition ? std::move(*partition).number() : WedgeSites{{}, wedge_count};
-}
-
-WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
                       std::span<const uint8_t> seams, const KnownMesh& known) {
   std::optional<Partition> partition;
-  const UmbrellaWays ways(mesh, *known.ways);
-  for (const Index umbrella : known.parted) {
-    ways.goRound(umbrella, [&](Index c) {
-      const Index across = ways.across(c);
-      if (across == kNone || wedges[c] == wedges[across] || (!seams.empty() && seams[c] != 0)) return;
-      if (!partition) partition.emplace(wedge_count);
-      partition->join(wedges[c], wedges[across]);
-    });
+  const auto join = [&](Index corner, Index a, Index b) {
+    if (a == b || (!seams.empty() && seams[corner] != 0)) return;
+    if (!partition) partition.emplace(wedge_count);
+    partition->join(a, b);
+  };
+  if (known.ways) {
+    const UmbrellaWays ways(mesh, *known.ways);
+    for (const Index umbrella : known.parted) {
+      ways.goRound(umbrella, [&](Index c) {
+        const Index across = ways.across(c);
+        if (across != kNone) join(c, wedges[c], wedges[across]);
+      });
+    }
+  } else {
+    Index begin = 0;
+    for (const Index degree : mesh.face_degrees) {
+      const Index end = begin + degree;
+      for (Index c = begin; c < end; ++c) {
+        if (mesh.twins[c] != kNone) join(c, wedges[c + 1 == end ? begin : c + 1], wedges[mesh.twins[c]]);
+      }
+      begin = end;
+    }
   }
   return partition ? std::move(*partition).number() : WedgeSites{{}, wedge_count};
 }
 
-namespace {
-
-/// From the vertices of wedges, kNone for those that no corner uses.
-WedgeSites numberVertices(std::vector<Index> vertex_of, Index vertex_count) {
-  WedgeSites sites{std::move(vertex_of), 0};
-  std::vector<Index> site_of_vertex(vertex_count, kNone);
-  for (Index& vertex : sites.site_of) {
+WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
+                        const KnownMesh& known) {
+  WedgeSites sites{std::vector<Index>(wedge_count, kNone), 0};
+  std::vector<Index>& of_wedge = sites.site_of;  // at first the vertex; kNone where no corner uses the wedge
+  if (known.ways) {
+    const UmbrellaWays ways(mesh, *known.ways);
+    for (const Index first : known.ways->firsts) of_wedge[wedges[first]] = mesh.vertexOf(first);
+    for (const Index umbrella : known.parted) {
+      ways.goRound(umbrella, [&](Index c) { of_wedge[wedges[c]] = mesh.vertexOf(c); });
+    }
+  } else {
+    for (Index c = 0; c < wedges.size(); ++c) of_wedge[wedges[c]] = mesh.vertexOf(c);
+  }
+  std::vector<Index> site_of_vertex(mesh.vertex_count, kNone);
+  for (Index& vertex : of_wedge) {
     Index isolated = kNone;
     Index& site = vertex == kNone ? isolated : site_of_vertex[vertex];
     if (site == kNone) site = sites.count++;
     vertex = site;
   }
   return sites;
-}
-
-}  // namespace
-
-WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count) {
-  std::vector<Index> vertex_of(wedge_count, kNone);
-  for (Index c = 0; c < wedges.size(); ++c) vertex_of[wedges[c]] = mesh.vertexOf(c);
-  return numberVertices(std::move(vertex_of), mesh.vertex_count);
-}
-
-WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
-                        const KnownMesh& known) {
-  std::vector<Index> vertex_of(wedge_count, kNone);
-  const UmbrellaWays ways(mesh, *known.ways);
-  for (const Index first : known.ways->firsts) vertex_of[wedges[first]] = mesh.vertexOf(first);
-  for (const Index umbrella : known.parted) {
-    ways.goRound(umbrella, [&](Index c) { vertex_of[wedges[c]] = mesh.vertexOf(c); });
-  }
-  return numberVertices(std::move(vertex_of), mesh.vertex_count);
 }
 
 }  // namespace tutte

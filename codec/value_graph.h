@@ -17,8 +17,8 @@ namespace tutte {
 
 /// What is known of a mesh that a decoder or an encoder has made, so that most of it need not be looked at.
 struct KnownMesh {
-  std::shared_ptr<const MeshWays> ways;
-  std::span<const Index> parted;  ///< in ascending order, all umbrellas that have several wedges; must stay
+  const MeshWays* ways = nullptr;   ///< null: nothing is known
+  std::span<const Index> parted{};  ///< in ascending order, all umbrellas that have several wedges
 };
 
 /// The sites of one attribute over a mesh, as predictors see them. 4 bytes per site unless the sites are all umbrellas,
@@ -28,13 +28,11 @@ struct KnownMesh {
 /// and both ones' edges are boundaries.
 class ValueGraph {
  public:
-  /// The sites are the umbrellas, and behind them those that no corner uses. The mesh must stay as and where it is.
-  /// O(corners), as the next one; with `ways` O(umbrellas).
-  ValueGraph(const Connectivity& mesh, Index site_count, std::shared_ptr<const MeshWays> ways = nullptr);
+  /// The sites are the umbrellas, and behind them those that no corner uses. The mesh and what is known of it must stay
+  /// as and where they are. O(corners), as the next one; of a known mesh O(umbrellas).
+  ValueGraph(const Connectivity& mesh, Index site_count, const KnownMesh& known = {});
   /// `sites`, too, must stay: per corner a number below `site_count`. An umbrella may lie in several.
-  ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count);
-  /// The same, O(umbrellas).
-  ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count, const KnownMesh& known);
+  ValueGraph(const Connectivity& mesh, std::span<const Index> sites, Index site_count, const KnownMesh& known = {});
   ValueGraph(ValueGraph&&) = default;
 
   static constexpr Index kMostCorners = 60;  ///< of a site; further ones are not looked at
@@ -127,6 +125,9 @@ class ValueGraph {
     }
   }
 
+  // What is common to both constructors.
+  ValueGraph(const Connectivity& mesh, std::span<const Index> sites, const KnownMesh& known);
+
   AnyFaces any() const { return {shapes_.data()}; }
   void cut(Index corner);
   Index cutLargeFaces(std::span<const Index> face_degrees);
@@ -138,7 +139,8 @@ class ValueGraph {
   void addFan(Index first);
   void addFans(const Connectivity& mesh, std::vector<Index>& firsts);
 
-  std::shared_ptr<const MeshWays> ways_;
+  std::unique_ptr<const MeshWays> own_ways_;  // null: they are known
+  const MeshWays* ways_;
   std::span<const Index> sites_, twins_;  // per corner
   std::vector<Index> own_twins_;          // empty: the mesh's
   std::span<const ComponentCopy> copies_;
@@ -155,17 +157,13 @@ struct WedgeSites {
 };
 
 /// Joins wedges that no seam parts: those of two faces that meet in an edge which is no seam. `wedges` are per corner,
-/// below `wedge_count`; `seams` is per corner, 1 where the edge to the next corner is a seam, or empty. O(corners).
+/// below `wedge_count`; `seams` is per corner, 1 where the edge to the next corner is a seam, or empty. O(corners), of
+/// a known mesh those of parted umbrellas.
 WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
-                      std::span<const uint8_t> seams);
-/// The same, O(corners of parted umbrellas).
-WedgeSites joinWedges(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
-                      std::span<const uint8_t> seams, const KnownMesh& known);
+                      std::span<const uint8_t> seams, const KnownMesh& known = {});
 
-/// Joins all wedges of a vertex. O(corners).
-WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count);
-/// The same, O(umbrellas).
+/// Joins all wedges of a vertex. O(corners), of a known mesh O(umbrellas).
 WedgeSites joinVertices(const Connectivity& mesh, std::span<const Index> wedges, Index wedge_count,
-                        const KnownMesh& known);
+                        const KnownMesh& known = {});
 
 }  // namespace tutte

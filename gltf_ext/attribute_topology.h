@@ -9,7 +9,8 @@ namespace tutte {
 /// A view: `connectivity` and `seams` must outlive it; they must be an encoder's or a decoder's.
 inline AttributeTopology attributeTopology(const Connectivity& connectivity, const Seams& seams) {
   const std::vector<Index>& wedges = seams.wedges.empty() ? connectivity.umbrellas : seams.wedges;
-  AttributeTopology topology{connectivity, wedges, seams.wedge_count, {}, true, seams.ways, seams.parted_umbrellas};
+  AttributeTopology topology{connectivity, wedges,           seams.wedge_count,     {},
+                             true,         seams.ways.get(), seams.parted_umbrellas};
   topology.seams.assign(seams.attribute_seams.begin(), seams.attribute_seams.end());
   return topology;
 }

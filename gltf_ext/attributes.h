@@ -2,7 +2,6 @@
 // Attributes coded over the decoded connectivity. The door behind which the Draco mode stands (and others will).
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,7 +25,7 @@ struct AttributeTopology {
   std::vector<std::span<const uint8_t>> seams;
   bool trusted = false;  ///< is as encoders and decoders make it; otherwise that is checked first
   /// If trusted, and if they are there: the connectivity's, and as in Seams. Without ways there are no seams.
-  std::shared_ptr<const MeshWays> ways{};
+  const MeshWays* ways = nullptr;
   std::span<const Index> parted_umbrellas{};
 };
 

@@ -34,8 +34,9 @@ class SiteLayouts {
  public:
   explicit SiteLayouts(const AttributeTopology& topology)
       : topology_(topology), known_{topology.ways, topology.parted_umbrellas}, whole_(whole()) {
-    if (topology.trusted && !known_.ways) known_.ways = std::make_shared<const MeshWays>(topology.connectivity);
+    if (topology.trusted && !known_.ways) known_.ways = &own_ways_.emplace(topology.connectivity);
   }
+  SiteLayouts(const SiteLayouts&) = delete;
 
   SiteLayout& get(size_t attribute) {
     const bool positions = attribute == 0;
@@ -68,7 +69,6 @@ class SiteLayouts {
     const std::span<const Index> wedges = topology_.wedges;
     const Index count = topology_.wedge_count;
     if (whole_) return {{}, count};
-    if (!known_.ways) return positions ? joinVertices(mesh, wedges, count) : joinWedges(mesh, wedges, count, seams);
     return positions ? joinVertices(mesh, wedges, count, known_) : joinWedges(mesh, wedges, count, seams, known_);
   }
 
@@ -86,18 +86,17 @@ class SiteLayouts {
       sites = layout->sites;
     }
     if (areUmbrellas(sites)) {
-      layout->graph.emplace(mesh, layout->wedges.count, known_.ways);
+      layout->graph.emplace(mesh, layout->wedges.count, known_);
       layout->sites = std::vector<Index>();
-    } else if (known_.ways) {
-      layout->graph.emplace(mesh, sites, layout->wedges.count, known_);
     } else {
-      layout->graph.emplace(mesh, sites, layout->wedges.count);
+      layout->graph.emplace(mesh, sites, layout->wedges.count, known_);
     }
     return layout;
   }
 
   const AttributeTopology& topology_;
-  KnownMesh known_;  ///< without ways where nothing is known
+  std::optional<MeshWays> own_ways_;  ///< empty: the topology's, or nobody's
+  KnownMesh known_;                   ///< without ways where nothing is known
   const bool whole_;
   const std::span<const uint8_t> none_;
   std::vector<Entry> entries_;
