@@ -138,6 +138,7 @@ std::vector<DracoCoder> dracoCoders(const PolygonMesh& mesh, const PackOptions& 
   coders.push_back({{mesh, options, DracoInput::kTriangles, 7}, &BenchFigures::draco_cl7});
   coders.push_back({{mesh, options, DracoInput::kTriangles, 10}, &BenchFigures::draco_cl10});
   coders.push_back({{mesh, options, DracoInput::kPolygons, 10}, &BenchFigures::draco_polygons});
+  coders.push_back({{mesh, options, DracoInput::kConnectivity, 10}, &BenchFigures::draco_connectivity});
   return coders;
 }
 

@@ -57,6 +57,7 @@ BenchFigures& BenchFigures::operator+=(const BenchFigures& other) {
   addTo(draco_cl7, other.draco_cl7);
   addTo(draco_cl10, other.draco_cl10);
   addTo(draco_polygons, other.draco_polygons);
+  addTo(draco_connectivity, other.draco_connectivity);
   if (draco_refusal.empty()) draco_refusal = other.draco_refusal;
   if (other.paper_bytes) paper_bytes = paper_bytes.value_or(0) + *other.paper_bytes;
   paper_counterpart += other.paper_counterpart;
@@ -67,7 +68,7 @@ BenchFigures& BenchFigures::operator+=(const BenchFigures& other) {
 BenchFigures emptySum(const std::string& name) {
   BenchFigures sum;
   sum.file = name;
-  sum.draco_cl7 = sum.draco_cl10 = sum.draco_polygons = CoderFigures{};
+  sum.draco_cl7 = sum.draco_cl10 = sum.draco_polygons = sum.draco_connectivity = CoderFigures{};
   return sum;
 }
 

@@ -52,10 +52,11 @@ struct BenchFigures {
   CoderFigures ours;  ///< attribute_bytes include seams; total_bytes are the payloads
   std::map<Profile, ProfileFigures> profiles;
   std::optional<CoderFigures> draco_cl7, draco_cl10, draco_polygons;  ///< nothing where Draco refuses the mesh
-  std::string draco_refusal;                                          ///< its reason
-  std::optional<uint64_t> paper_bytes;  ///< of connectivity, if the model is one of the paper's
-  uint64_t paper_counterpart = 0;       ///< our connectivity bytes of those models
-  uint64_t glb_bytes = 0;               ///< of the whole file, with its JSON
+  std::optional<CoderFigures> draco_connectivity;  ///< at level 10, all positions zero: the way to connectivity alone
+  std::string draco_refusal;                       ///< its reason
+  std::optional<uint64_t> paper_bytes;             ///< of connectivity, if the model is one of the paper's
+  uint64_t paper_counterpart = 0;                  ///< our connectivity bytes of those models
+  uint64_t glb_bytes = 0;                          ///< of the whole file, with its JSON
 
   uint64_t otherConnectivityBytes() const { return ours.connectivity_bytes - symbols.valences - symbols.degrees; }
   double bitsPerVertex() const;

@@ -76,10 +76,12 @@ const char* nameOf(Profile profile) {
 void printProfileLine(const BenchFigures& f) {
   std::printf("%-28.28s", nameOf(f).c_str());
   for (const auto& [profile, figures] : f.profiles) {
-    std::printf(" | %8s %6.3f %5s %5s", withCommas(figures.connectivity_bytes).c_str(),
+    std::printf(" | %8s %6.3f %5s %5s %5s %5s", withCommas(figures.connectivity_bytes).c_str(),
                 f.vertices == 0 ? 0 : 8.0 * static_cast<double>(figures.connectivity_bytes) / double(f.vertices),
                 speed(figures.encode_seconds, f.draco_cl10, &CoderFigures::connectivity_encode_seconds).c_str(),
-                speed(figures.decode_seconds, f.draco_cl10, &CoderFigures::connectivity_decode_seconds).c_str());
+                speed(figures.decode_seconds, f.draco_cl10, &CoderFigures::connectivity_decode_seconds).c_str(),
+                speed(figures.encode_seconds, f.draco_connectivity, &CoderFigures::encode_seconds).c_str(),
+                speed(figures.decode_seconds, f.draco_connectivity, &CoderFigures::decode_seconds).c_str());
   }
   std::printf("\n");
 }
@@ -88,9 +90,9 @@ void printProfiles(const std::vector<BenchFigures>& rows, const BenchFigures& su
   if (rows.front().profiles.empty()) return;
   std::printf("\n%-28s", "connectivity by profile");
   for (const auto& [profile, figures] : rows.front().profiles) {
-    std::printf(" | %8s %6s %5s %5s", nameOf(profile), "b/v", "enc", "dec");
+    std::printf(" | %8s %6s %5s %5s %5s %5s", nameOf(profile), "b/v", "enc", "dec", "enc*", "dec*");
   }
-  std::printf("   (enc, dec: speed; D10's connectivity step is 1)\n");
+  std::printf("   (speeds; D10's connectivity step is 1; *: all that D10 does for connectivity alone)\n");
   for (const BenchFigures& row : rows) printProfileLine(row);
   if (rows.size() > 1) printProfileLine(sum);
 }

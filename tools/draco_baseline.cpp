@@ -70,6 +70,12 @@ class WatchedDecoder : public draco::MeshEdgebreakerDecoder {
   double seconds_ = 0;
 };
 
+/// Vertices stay what they are, for the connectivity follows the numbers of the values.
+void zeroPositions(draco::Mesh& mesh) {
+  draco::DataBuffer& values = *mesh.attribute(0)->buffer();
+  std::fill_n(values.data(), values.data_size(), uint8_t{0});
+}
+
 Failure refusal(const std::string& message) { return {FailureKind::kUnsupported, "Draco", message}; }
 
 /// Keeps the lesser time, or the only one.
@@ -115,8 +121,14 @@ Outcome<Done> DracoBaseline::prepare() {
     const int marks = static_cast<int>(mesh_.attributes.size());
     input_->options.SetAttributeInt(marks, "prediction_scheme", draco::PREDICTION_NONE);  // as draco_encoder does
   }
-  input_->mesh = dracoMesh(mesh_, input_->triangles, mesh_.attributes.size(), polygons);
+  const bool alone = input_kind_ == DracoInput::kConnectivity;
+  input_->mesh = dracoMesh(mesh_, input_->triangles, alone ? 1 : mesh_.attributes.size(), polygons);
   if (!input_->mesh) return refusal("values could not be welded");
+  if (alone) {
+    zeroPositions(*input_->mesh);
+    input_->options.SetAttributeInt(0, "prediction_scheme", draco::PREDICTION_NONE);
+    input_->options.SetAttributeInt(0, "quantization_bits", 1);
+  }
   return Done{};
 }
 

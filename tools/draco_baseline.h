@@ -20,6 +20,8 @@ enum class DracoInput : uint8_t {
   /// Fans, and a generic attribute per corner that is 1 opposite to the edges that were added, as Draco's OBJ reader
   /// makes it when asked to preserve polygons (but for faces of any degree).
   kPolygons,
+  /// The triangles, and zeros for positions: the least that Draco can be asked for where only connectivity is wanted.
+  kConnectivity,
 };
 
 /// Bytes and seconds (of processor time) of one mesh. Encoding starts with the finished draco::Mesh, triangulated and

@@ -247,7 +247,7 @@ TEST_F(Command, BenchHasEveryField) {
                             "profiles"}) {
     EXPECT_TRUE(json.contains(field)) << field;
   }
-  for (const char* draco : {"draco_cl7", "draco_cl10"}) {
+  for (const char* draco : {"draco_cl7", "draco_cl10", "draco_connectivity"}) {
     for (const char* field :
          {"connectivity_bytes", "attribute_bytes", "total_bytes", "encode_seconds", "decode_seconds",
           "connectivity_decode_seconds", "decode_peak_bytes", "seam_bytes", "by_attribute"}) {

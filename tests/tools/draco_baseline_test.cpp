@@ -109,6 +109,13 @@ TEST(DracoBaseline, PolygonsCostMoreThanTriangles) {
   EXPECT_TRUE(tryOut(big_face, DracoInput::kPolygons).ok());
 }
 
+TEST(DracoBaseline, ConnectivityAloneIsTheSameConnectivity) {
+  const PolygonMesh mesh = meshOf(shapes::randomTriangulation(500, 3));
+  const DracoFigures all = figuresOf(mesh), alone = figuresOf(mesh, {}, {DracoInput::kConnectivity, 10, 1});
+  EXPECT_EQ(alone.connectivity_bytes, all.connectivity_bytes);
+  EXPECT_LT(alone.attribute_bytes, 64u);
+}
+
 TEST(DracoBaseline, GivenTriangulationIsUsed) {
   PolygonMesh mesh = meshOf(shapes::quadGrid(12, 12));
   const uint64_t fans = figuresOf(mesh).total_bytes;
