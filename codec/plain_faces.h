@@ -11,8 +11,9 @@
 
 namespace tutte {
 
-/// One flag per face: it has the expected degree and is no dummy. Where it was so often in a row before, in a small
-/// context, the flag alone is coded, and nothing else is looked at.
+/// One flag per face: it has the expected degree and is no dummy. Where it was so `kSure` times in a row before, in a
+/// small context, the flag alone is coded, and nothing else is looked at.
+template <int kSure>
 class PlainFaces {
  public:
   /// Is it as good as certain that this face is plain? `expected`: the degree that it then has.
@@ -32,7 +33,6 @@ class PlainFaces {
 
  private:
   using Run = SureRun<4>;
-  static constexpr int kSure = 63;
 
   // How many edges are known, and how many of the neighbours beside them are plain.
   static size_t contextOf(const FaceQuestion& question, Index expected, bool may_be_dummy) {

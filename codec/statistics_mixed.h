@@ -25,8 +25,7 @@ struct ContextList {
 };
 
 /// A profile has lists of contexts, and says whether it is rich (see Predictor), whether the most frequent degree is
-/// asked for first (that takes fewer decisions, and a few bytes more; then PlainFaces are looked for, too), and whether
-/// any context looks at the history.
+/// asked for first (that takes fewer decisions, and a few bytes more), and whether any context looks at the history.
 
 /// One context each, nothing to mix.
 struct FastProfile {
@@ -155,7 +154,7 @@ class MixedStatistics {
     if (known != 0 && !may_be_dummy) return {known, false};
     FaceBounds bounds{known, std::max(header_.leastDegree(), question.known_edges + 1), may_be_dummy};
     const Index expected = known != 0 ? known : usual_degree_.of(0);
-    const bool may_be_plain = Profile::kUsualDegree && (known != 0 || expected >= bounds.least);
+    const bool may_be_plain = known != 0 || expected >= bounds.least;
     if (may_be_plain) {
       bounds.not_plain = plain_.isSure(question, expected, may_be_dummy) && matchAllows(expected);
       port.about(known == 0 ? Topic::kDegrees : Topic::kHoles);
@@ -279,7 +278,7 @@ class MixedStatistics {
   History history_;
   UsualSymbol usual_;         // valences, by the face's degree
   UsualSymbol usual_degree_;  // all degrees in one class
-  PlainFaces plain_;
+  PlainFaces<Profile::kRich ? 127 : 63> plain_;
   bool plainly_ = false;  // nothing but a flag of plain_ was coded of the last face
   NumberModel large_valence_, large_degree_, dummy_degree_;
   Index expected_ =

@@ -59,12 +59,12 @@ class Mixed:
         self.vertex_contexts, self.face_contexts, rich = PROFILES[section.profile]
         self.vertices = Mixer(len(self.vertex_contexts), rich, section.table_bits)
         self.faces = Mixer(len(self.face_contexts), rich, section.table_bits)
-        self.runs, self.plain_runs, self.sure = {}, [0] * 16, 31 if rich else 15
+        self.rich, self.runs, self.plain_runs, self.sure = rich, {}, [0] * 16, 31 if rich else 15
         self.match = Match(section.match)
         self.valences, self.degrees = [0, 0, 0], [0, 0, 0]
         self.counts = [[0] * 16 for _ in range(16)]
         self.usual = [6 if i == 3 else 4 for i in range(16)]
-        self.degree_counts, self.usual_degree = [0] * 16, 0 if rich else 4
+        self.degree_counts, self.usual_degree = [0] * 16, 4
         self.dummy_degree, self.large_degree, self.large_valence = Number(), Number(), Number()
 
     def decide(self, stream, mixer, node, situation, answer):
@@ -95,12 +95,12 @@ class Mixed:
         if degree and not may_be_dummy:
             return degree, False
         least, usual = max(self.section.least_degree, edges + 1), self.usual_degree
-        if not self.usual_degree or (not degree and usual < least):
+        if not degree and usual < least:
             return self.read_unknown(stream, walk, start, edges, closed, degree, least, may_be_dummy, False)
         expected = degree or usual
         place = self.plain_place(walk, start, edges, expected, may_be_dummy)
         run, matched = self.plain_runs[place], self.match.expected()
-        sure = run >= 63 and (matched is None or matched < 128 or matched == 128 + expected)
+        sure = run >= (127 if self.rich else 63) and (matched is None or matched < 128 or matched == 128 + expected)
         if sure and stream.bit(65536 - 65536 // (run + 2)):
             self.plainly = True
             answer = (expected if degree else self.counted_degree(expected)), False
@@ -119,7 +119,7 @@ class Mixed:
 
     def read_unknown(self, stream, walk, start, edges, closed, degree, least, may_be_dummy, not_plain):
         f = FaceFeatures(walk, start, edges, walk.face_head, walk.face_tail, self.valences, self.degrees)
-        usual = self.usual_degree
+        usual = 0 if self.rich else self.usual_degree
         self.faces.enter([FACE[name](f) | min(usual, 15) << 44 for name in self.face_contexts])
         situation = f.behind * 3 + min(f.known, 3) - (f.known > 0)
 
@@ -148,7 +148,7 @@ class Mixed:
         return first + 20 + self.large_degree.read(stream)
 
     def counted_degree(self, degree):
-        if 3 <= degree <= 15 and self.usual_degree:
+        if 3 <= degree <= 15:
             self.degree_counts[degree] += 1
             if self.degree_counts[degree] > self.degree_counts[self.usual_degree]:
                 self.usual_degree = degree
