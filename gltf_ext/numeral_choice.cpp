@@ -113,7 +113,7 @@ NumeralSystem chooseSystem(const Attribute& attribute, int component) {
   return decimal.cost < binary.cost ? decimal.system : binary.system;
 }
 
-/// True when nearly all values have a relation, which is to be worth its cost where it does not hold.
+/// True when most values have a relation: a component is nearly free where it holds, and costs a few bits where not.
 template <class Holds>
 bool mostly(const Attribute& attribute, Holds holds) {
   size_t good = 0, all = 0;
@@ -122,7 +122,7 @@ bool mostly(const Attribute& attribute, Holds holds) {
     for (int c = 0; c < attribute.components; ++c) value[c] = loadFloat(&attribute.data[at + 4 * c]);
     good += holds(value);
   }
-  return good * 16 >= all * 15;
+  return 4 * good >= 3 * all;
 }
 
 Relation findRelation(const Attribute& attribute) {
