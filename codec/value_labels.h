@@ -8,13 +8,14 @@
 #include <span>
 #include <vector>
 
+#include "codec/sure_run.h"
 #include "codec/value_graph.h"
 #include "codec/value_model.h"
 
 namespace tutte::values {
 
-/// Codes labels below `count` site by site, as binary decisions from the highest bit on; each is predicted from the
-/// labels around the site.
+/// Codes labels below `count` site by site: whether it is that of a neighbour, or else, as binary decisions from the
+/// highest bit on, which it is; each is predicted from the labels around the site.
 template <class Port>
 class LabelCoder {
  public:
@@ -32,7 +33,58 @@ class LabelCoder {
   void code(std::span<int32_t> labels) {
     const Index site = next_++;
     const auto label = static_cast<uint32_t>(labels[site]);
-    const std::array<uint32_t, kInputs> contexts = contextsOf(site);
+    const Around around = look(site);
+    uint32_t coded = around.beside[0];
+    if (coded == kNone || !isBeside(around, label == coded)) coded = codeDigits(contextsOf(around), label);
+    labels_[site] = last_ = coded;
+    labels[site] = static_cast<int32_t>(coded);
+  }
+
+ private:
+  static constexpr int kInputs = 5;
+  static constexpr int kTableBits = 14;
+  using Run = SteadyRun<31, 4>;
+
+  /// Labels around a site; kNone: there is none.
+  struct Around {
+    std::array<uint32_t, 2> beside{kNone, kNone};  ///< the first one, and the first that differs from it
+    uint32_t across = kNone;                       ///< of a face
+    uint32_t agreeing = 0;                         ///< how many beside it are the first one, at most 3
+  };
+
+  Around look(Index site) const {
+    Around around;
+    uint32_t found = 0, agreeing = 0;
+    for (const Index corner : graph_.corners(site)) {
+      for (const Index other : {graph_.next(corner), graph_.prev(corner)}) {
+        const uint32_t label = labels_[graph_.site(other)];
+        if (label == kNone) continue;
+        if (found < 2 && (found == 0 || label != around.beside[0])) around.beside[found++] = label;
+        agreeing += label == around.beside[0];
+      }
+      const uint32_t opposite = labels_[graph_.site(graph_.next(graph_.next(corner)))];
+      if (opposite != kNone && around.across == kNone) around.across = opposite;
+    }
+    around.agreeing = std::min(agreeing, 3u);
+    return around;
+  }
+
+  std::array<uint32_t, kInputs> contextsOf(const Around& around) const {
+    const auto [first, second] = around.beside;
+    return {0u, first * 4 + around.agreeing, first * 0x10001u + second * 3, around.across * 0x8003u + first, last_};
+  }
+
+  // Is it the first one beside? Where it has been so, or not so, often enough, nothing else is looked at.
+  bool isBeside(const Around& around, bool truth) {
+    const uint32_t first = around.beside[0], same = uint32_t{around.across == first} * 2 + uint32_t{last_ == first};
+    Run& run = runs_[around.agreeing * 8 + uint32_t{around.beside[1] != kNone} * 4 + same];
+    if (run.isSure()) return run.code(port_, truth);
+    const bool beside = decide(contextsOf(around), 0, truth);
+    run.note(beside);
+    return beside;
+  }
+
+  uint32_t codeDigits(const std::array<uint32_t, kInputs>& contexts, uint32_t label) {
     uint32_t node = 1;  // the bits so far below a leading one
     for (int i = bits_ - 1; i >= 0; --i) {
       // Labels at or beyond the count do not exist: there a 1 is impossible.
@@ -41,31 +93,7 @@ class LabelCoder {
       if (upper < count_) bit = decide(contexts, node, label >> i & 1);
       node = node << 1 | static_cast<uint32_t>(bit);
     }
-    labels_[site] = last_ = node - (1u << bits_);
-    labels[site] = static_cast<int32_t>(last_);
-  }
-
- private:
-  static constexpr int kInputs = 5;
-  static constexpr int kTableBits = 14;
-
-  // Two labels beside the site, one across a face from it, and the one that was coded last.
-  std::array<uint32_t, kInputs> contextsOf(Index site) const {
-    std::array<uint32_t, 4> around;
-    around.fill(kNone);
-    uint32_t found = 0, agreeing = 0;
-    for (const Index corner : graph_.corners(site)) {
-      for (const Index other : {graph_.next(corner), graph_.prev(corner)}) {
-        const uint32_t label = labels_[graph_.site(other)];
-        if (label == kNone) continue;
-        if (found < 2 && (found == 0 || label != around[0])) around[found++] = label;
-        agreeing += label == around[0];
-      }
-      const uint32_t opposite = labels_[graph_.site(graph_.next(graph_.next(corner)))];
-      if (opposite != kNone && around[2] == kNone) around[2] = opposite;
-    }
-    agreeing = std::min(agreeing, 3u);
-    return {0u, around[0] * 4 + agreeing, around[0] * 0x10001u + around[1] * 3, around[2] * 0x8003u + around[0], last_};
+    return node - (1u << bits_);
   }
 
   bool decide(const std::array<uint32_t, kInputs>& contexts, uint32_t node, bool bit) {
@@ -74,7 +102,7 @@ class LabelCoder {
       const uint32_t hash = (contexts[i] * 0x9E3779B1u ^ node * 0x85EBCA6Bu) * 0xC2B2AE35u;
       lines[i] = &slots_[(size_t{i} << kTableBits) + (hash >> (32 - kTableBits))];
     }
-    return mixer_[static_cast<size_t>(std::bit_width(node)) - 1].code(port_, lines, bit);
+    return mixer_[static_cast<size_t>(std::bit_width(node))].code(port_, lines, bit);
   }
 
   Port& port_;
@@ -85,7 +113,8 @@ class LabelCoder {
   uint32_t last_ = 0;
   std::vector<uint32_t> labels_;  // per site; kNone: unknown
   std::vector<Chance> slots_;
-  std::array<Mixer<kInputs>, 16> mixer_;
+  std::array<Mixer<kInputs>, 13> mixer_;  // by the digits so far; the first: is it beside?
+  std::array<Run, 32> runs_;
 };
 
 }  // namespace tutte::values

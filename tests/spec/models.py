@@ -263,3 +263,24 @@ class Match:
             length += 1
         if length >= 6:
             self.position, self.length = candidate, length
+
+
+class SteadyRun:
+    def __init__(self, sure, loss):
+        self.sure, self.loss, self.length, self.usual = sure, loss, 0, 0
+
+    def is_sure(self):
+        return self.length >= self.sure
+
+    def read(self, stream):
+        same = stream.bit(65536 - 65536 // (self.length + 2))
+        self.count(same)
+        return self.usual if same else 1 - self.usual
+
+    def note(self, flag):
+        if self.length == 0:
+            self.usual = flag
+        self.count(flag == self.usual)
+
+    def count(self, same):
+        self.length = min(self.length + 1, 16383) if same else self.length // self.loss

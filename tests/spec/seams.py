@@ -1,7 +1,7 @@
 """A payload's head (EXTENSION_SPEC.md, Appendix A) and its section SEAMS (C.1 and C.2)."""
 import zlib
 
-from models import Bit, Number, RangeDecoder, clamp, require
+from models import Bit, Number, RangeDecoder, SteadyRun, clamp, require
 from value_models import SQUASH, Chances, varint
 
 
@@ -67,27 +67,6 @@ class MixedFlag:
             weights[i] = clamp(weights[i] + (value * error + 512 >> 10), -2**20, 2**20)
             chances[i].update(bit)
         return bit
-
-
-class SteadyRun:
-    def __init__(self, sure, loss):
-        self.sure, self.loss, self.length, self.usual = sure, loss, 0, 0
-
-    def is_sure(self):
-        return self.length >= self.sure
-
-    def read(self, stream):
-        same = stream.bit(65536 - 65536 // (self.length + 2))
-        self.count(same)
-        return self.usual if same else 1 - self.usual
-
-    def note(self, flag):
-        if self.length == 0:
-            self.usual = flag
-        self.count(flag == self.usual)
-
-    def count(self, same):
-        self.length = min(self.length + 1, 16383) if same else self.length // self.loss
 
 
 # C.2 SEAMS

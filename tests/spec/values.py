@@ -2,7 +2,7 @@
 
 decode(mesh, sites, site_count, m, maximum, head, data, places) -> the numbers, m per site.
 """
-from models import clamp, require
+from models import SteadyRun, clamp, require
 from value_copies import Copies
 from value_models import (FAST, SMALL, Chances, Classes, Lengths, MixedChance, ValueStream, bit_length, cut, log4, varint)
 from value_echoes import Echoes
@@ -158,8 +158,20 @@ class Coder:
 
 def labels(graph, count, stream):
     label_of, last, mixed = {}, 0, MixedChance()
-    slots = [Chances() for _ in range(5)]
-    none = 2**32 - 1
+    slots, runs = [Chances() for _ in range(5)], [SteadyRun(31, 4) for _ in range(32)]
+    none, bits = 2**32 - 1, bit_length(count - 1)
+
+    def read(node):
+        hashes = [((c * 0x9E3779B1 ^ node * 0x85EBCA6B) * 0xC2B2AE35 % 2**32) >> 18 for c in contexts]
+        return mixed.read(stream, bit_length(node), [slots[k][h] for k, h in enumerate(hashes)])
+
+    def is_beside(run):
+        if run.is_sure():
+            return run.read(stream)
+        beside = read(0)
+        run.note(beside)
+        return beside
+
     for site in range(graph.site_count):
         around, found, agreeing = [none] * 3, 0, 0
         for corner in graph.corners(site):
@@ -174,15 +186,16 @@ def labels(graph, count, stream):
             opposite = label_of.get(graph.site[graph.next[graph.next[corner]]], none)
             if around[2] == none:
                 around[2] = opposite
-        contexts = (0, around[0] * 4 + min(agreeing, 3), around[0] * 0x10001 + around[1] * 3,
+        agreeing = min(agreeing, 3)
+        contexts = (0, around[0] * 4 + agreeing, around[0] * 0x10001 + around[1] * 3,
                     around[2] * 0x8003 + around[0], last)
-        bits, node = bit_length(count - 1), 1
+        run = runs[agreeing * 8 + (around[1] != none) * 4 + (around[2] == around[0]) * 2 + (last == around[0])]
+        if around[0] != none and is_beside(run):
+            label_of[site] = last = around[0]
+            continue
+        node = 1
         for i in reversed(range(bits)):
-            bit = 0
-            if ((node << 1 | 1) << i) - (1 << bits) < count:
-                hashes = [((c * 0x9E3779B1 ^ node * 0x85EBCA6B) * 0xC2B2AE35 % 2**32) >> 18 for c in contexts]
-                bit = mixed.read(stream, bit_length(node), [slots[k][h] for k, h in enumerate(hashes)])
-            node = node << 1 | bit
+            node = node << 1 | (read(node) if ((node << 1 | 1) << i) - (1 << bits) < count else 0)
         label_of[site] = last = node - (1 << bits)
     return [label_of[site] for site in range(graph.site_count)]
 
