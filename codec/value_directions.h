@@ -16,56 +16,106 @@ namespace tutte::values {
 
 using SurfaceNormal = std::array<int16_t, 3>;  ///< of length 2^kUnitBits, or 0
 
-/// Twice the area of a face's corners from `begin` to `end`, as a vector at right angles to it.
-inline Vector3 areaOf(const ValueGraph& graph, Places places, Index begin, Index end) {
-  constexpr Index kMostCorners = 1u << 20;  // so that sums fit
-  end = std::min(end, begin + kMostCorners);
-  Vector3 area{};
-  Index c = begin;
-  // Diagonals span the area of a quad.
-  for (; end - c > 3; c += 2) {
-    const Vector3 part = cross(places.between(graph.site(begin), graph.site(c + 2)),
-                               places.between(graph.site(c + 1), graph.site(c + 3)));
-    for (int i = 0; i < 3; ++i) area[i] += part[i];
+/// The normals that the surface itself has at its sites: sums over the faces around each.
+class SurfaceNormals {
+ public:
+  /// `places` are those of ValueSites. O(corners).
+  static std::vector<SurfaceNormal> of(const ValueGraph& graph, Places places, Weighting weighting) {
+    SurfaceNormals sums(graph, places, weighting);
+    graph.withFaces([&](const auto& faces) { sums.addAll(faces); });
+    return sums.normals();
   }
-  if (end - c < 3) return area;
-  const Vector3 part =
-      cross(places.between(graph.site(begin), graph.site(c + 1)), places.between(graph.site(c + 1), graph.site(c + 2)));
-  for (int i = 0; i < 3; ++i) area[i] += part[i];
-  return area;
-}
 
-/// The normals that the surface itself has at its sites: sums over the faces around each. `places` are those of
-/// ValueSites. O(corners).
-inline std::vector<SurfaceNormal> surfaceNormals(const ValueGraph& graph, Places places, Weighting weighting) {
-  std::vector<Vector3> sums(graph.siteCount(), Vector3{});
-  for (Index begin = 0, end; begin < graph.cornerCount(); begin = end) {
-    for (end = begin + 1; graph.next(end - 1) == end; ++end) {
+ private:
+  SurfaceNormals(const ValueGraph& graph, Places places, Weighting weighting)
+      : graph_(graph), places_(places), weighting_(weighting), sums_(graph.siteCount(), Vector3{}) {}
+
+  template <class Faces>
+  void addAll(const Faces& faces) {
+    for (Index begin = 0, end; begin < graph_.cornerCount(); begin = end) {
+      if (Faces::kAllTriangles) {
+        end = begin + 3;
+      } else {
+        for (end = begin + 1; faces.next(end - 1) == end; ++end) {
+        }
+      }
+      if (end - begin == 3) addTriangle(begin);
+      if (end - begin > 3) addPolygon(faces, begin, end);
     }
-    if (end - begin < 3) continue;
-    const Vector3 area = areaOf(graph, places, begin, end);
-    const Vector3 normal = weighting == Weighting::kByArea ? shortened(area, 46) : unit(area);
+  }
+
+  // The area is the product of the sides at each of its corners.
+  void addTriangle(Index begin) {
+    const Index a = graph_.site(begin), b = graph_.site(begin + 1), c = graph_.site(begin + 2);
+    const Vector3 ab = places_.between(a, b), bc = places_.between(b, c), ca = places_.between(c, a);
+    const Vector3 area = cross(ab, bc), normal = normalOf(area);
+    if (weighting_ != Weighting::kByAngle) {
+      for (const Index site : {a, b, c}) add(site, normal, 1);
+      return;
+    }
+    const Sine sine(area);
+    add(a, normal, angle(sine, -dot(ab, ca)));
+    add(b, normal, angle(sine, -dot(bc, ab)));
+    add(c, normal, angle(sine, -dot(ca, bc)));
+  }
+
+  template <class Faces>
+  void addPolygon(const Faces& faces, Index begin, Index end) {
+    const Vector3 normal = normalOf(areaOf(begin, end));
     for (Index c = begin; c < end; ++c) {
-      const Index site = graph.site(c);
+      const Index site = graph_.site(c);
       int64_t weight = 1;
-      if (weighting == Weighting::kByAngle) {
-        weight =
-            angle(places.between(site, graph.site(graph.next(c))), places.between(site, graph.site(graph.prev(c))));
+      if (weighting_ == Weighting::kByAngle) {
+        const Vector3 next = places_.between(site, graph_.site(faces.next(c)));
+        const Vector3 prev = places_.between(site, graph_.site(faces.prev(c)));
+        weight = angle(Sine(cross(next, prev)), dot(next, prev));
       }
-      // Unsigned, because thousands of faces round one site may wrap round.
-      for (int i = 0; i < 3; ++i) {
-        sums[site][i] =
-            static_cast<int64_t>(static_cast<uint64_t>(sums[site][i]) + static_cast<uint64_t>(normal[i] * weight));
-      }
+      add(site, normal, weight);
     }
   }
-  std::vector<SurfaceNormal> normals(sums.size());
-  for (size_t site = 0; site < sums.size(); ++site) {
-    const Vector3 normal = unit(sums[site]);
-    for (int i = 0; i < 3; ++i) normals[site][i] = static_cast<int16_t>(normal[i]);
+
+  // Twice the area of a polygon of four corners or more, as a vector at right angles to it.
+  Vector3 areaOf(Index begin, Index end) const {
+    constexpr Index kMostCorners = 1u << 20;  // so that sums fit
+    end = std::min(end, begin + kMostCorners);
+    Vector3 area{};
+    const auto between = [&](Index from, Index to) { return places_.between(graph_.site(from), graph_.site(to)); };
+    const auto addPart = [&](const Vector3& part) {
+      for (size_t i = 0; i < 3; ++i) area[i] += part[i];
+    };
+    Index c = begin;
+    // Diagonals span the area of a quad.
+    for (; end - c > 3; c += 2) addPart(cross(between(begin, c + 2), between(c + 1, c + 3)));
+    if (end - c == 3) addPart(cross(between(begin, c + 1), between(c + 1, c + 2)));
+    return area;
   }
-  return normals;
-}
+
+  Vector3 normalOf(const Vector3& area) const {
+    return weighting_ == Weighting::kByArea ? shortened(area, 46) : unit(area);
+  }
+
+  // Unsigned, because thousands of faces round one site may wrap round.
+  void add(Index site, const Vector3& normal, int64_t weight) {
+    Vector3& sum = sums_[site];
+    for (size_t i = 0; i < 3; ++i) {
+      sum[i] = static_cast<int64_t>(static_cast<uint64_t>(sum[i]) + static_cast<uint64_t>(normal[i] * weight));
+    }
+  }
+
+  std::vector<SurfaceNormal> normals() const {
+    std::vector<SurfaceNormal> normals(sums_.size());
+    for (size_t site = 0; site < sums_.size(); ++site) {
+      const Vector3 normal = unit(sums_[site]);
+      for (size_t i = 0; i < 3; ++i) normals[site][i] = static_cast<int16_t>(normal[i]);
+    }
+    return normals;
+  }
+
+  const ValueGraph& graph_;
+  const Places places_;
+  const Weighting weighting_;
+  std::vector<Vector3> sums_;  // by site
+};
 
 /// Directions: the surface's normal, the same with the neighbours' deviation from theirs, or the neighbours' mean
 /// direction: whichever was best at the neighbours. Where directions point into the surface, so do predictions.
@@ -73,15 +123,16 @@ template <int C>
 class DirectionGuide {
  public:
   static SurroundingsFinder::Wanted wanted(ValueKind) { return {.predictions = false}; }
+  static constexpr bool predictsAlone() { return true; }
 
   /// Without places (an empty span), only the neighbours count. `max` is twice the octahedron's centre.
   DirectionGuide(const ValueGraph& graph, const Nodes<C>& nodes, std::span<const int32_t> places, int32_t max,
                  ValueKind, Weighting weighting)
       : nodes_(nodes), states_(graph.siteCount()), centre_(max / 2) {
-    if (!places.empty()) surface_ = surfaceNormals(graph, Places(places), weighting);
+    if (!places.empty()) surface_ = SurfaceNormals::of(graph, Places(places), weighting);
   }
 
-  TUTTE_APART void refine(const Surroundings& around, Stencil<C, int32_t>& stencil) {
+  TUTTE_APART void refine(const Surroundings& around, const Vec<C, int32_t>& last, Stencil<C, int32_t>& stencil) {
     std::array<int32_t, kCandidates> errors{};
     std::array<int32_t, 3> sum{}, normals{};
     const auto count = static_cast<int32_t>(around.neighbours().size());
@@ -98,7 +149,14 @@ class DirectionGuide {
     if (!surface_.empty()) here_ = surface_[around.site()];
     inward_ = count > 0 ? 2 * inward > count : last_inward_;
     if (inward_) turnRound();
-    predict(sum, normals, count, stencil.base);
+    const Vector3 neighbours{sum[0], sum[1], sum[2]}, here{here_[0], here_[1], here_[2]};
+    Vector3 deviating = here;
+    for (size_t i = 0; i < 3 && count > 0; ++i) deviating[i] += mean(sum[i] - normals[i], static_cast<uint32_t>(count));
+    const Vector3& surface = isZero(here_) ? neighbours : here;
+    if (isZero(surface) || isZero(deviating) || (count > 0 && isZero(neighbours))) stencil.settleWithout(around, last);
+    bases_[kSurface] = project(surface, stencil.base);
+    bases_[kDeviating] = project(deviating, stencil.base);
+    bases_[kNeighbourMean] = count > 0 ? project(neighbours, stencil.base) : bases_[kDeviating];
     if (count > 0 || !isZero(here_)) choose(errors, stencil);
   }
 
@@ -137,15 +195,7 @@ class DirectionGuide {
     for (int16_t& x : here_) x = static_cast<int16_t>(-x);
   }
 
-  void predict(const std::array<int32_t, 3>& sum, const std::array<int32_t, 3>& normals, int32_t count,
-               const Vec<C, int32_t>& fallback) {
-    Vector3 mean_direction{sum[0], sum[1], sum[2]}, deviating{here_[0], here_[1], here_[2]};
-    bases_[kSurface] = project(isZero(here_) ? mean_direction : deviating, fallback);
-    for (int i = 0; i < 3 && count > 0; ++i) deviating[i] += mean(sum[i] - normals[i], static_cast<uint32_t>(count));
-    bases_[kDeviating] = project(deviating, fallback);
-    bases_[kNeighbourMean] = count > 0 ? project(mean_direction, fallback) : bases_[kDeviating];
-  }
-
+  /// `fallback` where there is no direction.
   Vec<C, int32_t> project(const Vector3& direction, const Vec<C, int32_t>& fallback) const {
     if (isZero(direction)) return fallback;
     const auto [s, t] = toOctahedron(direction, centre_, kFraction);

@@ -55,30 +55,27 @@ class Echoes {
   }
 
   Index candidateFor(Index site) const {
-    if (!graph_.isOpen(site)) return kNone;
-    for (const Index corner : graph_.corners(site)) {
-      const Index prev = graph_.prev(corner);
-      Index found = kNone;
-      if (graph_.twin(corner) == kNone) found = beside(graph_.site(graph_.next(corner)), true);
-      if (found == kNone && graph_.twin(prev) == kNone) found = beside(graph_.site(prev), false);
-      if (found != kNone) return found;
-    }
-    return kNone;
+    Index found = kNone;
+    graph_.forEachOpenFan(site, [&](Index ahead, Index behind) {
+      if (nodes_.known(ahead)) found = beside(ahead, true);
+      if (found == kNone && nodes_.known(behind)) found = beside(behind, false);
+      return found != kNone;
+    });
+    return found;
   }
 
   // The other boundary runs the other way: `onwards`, from a site that has the value of `neighbour` to the candidate,
   // otherwise from the candidate to it.
   Index beside(Index neighbour, bool onwards) const {
-    if (!nodes_.known(neighbour)) return kNone;
-    Index same = same_[neighbour];
-    for (int i = 0; i < kMostSame && same != kNone; ++i, same = same_[same]) {
-      for (const Index corner : graph_.corners(same)) {
-        const Index edge = onwards ? corner : graph_.prev(corner);
-        const Index candidate = graph_.site(onwards ? graph_.next(corner) : edge);
-        if (graph_.twin(edge) == kNone && nodes_.known(candidate)) return candidate;
-      }
+    Index found = kNone, same = same_[neighbour];
+    for (int i = 0; i < kMostSame && same != kNone && found == kNone; ++i, same = same_[same]) {
+      graph_.forEachOpenFan(same, [&](Index ahead, Index behind) {
+        const Index candidate = onwards ? ahead : behind;
+        if (nodes_.known(candidate)) found = candidate;
+        return found != kNone;
+      });
     }
-    return kNone;
+    return found;
   }
 
   // How many sites ago: the number of binary digits of that, one by one, and the digits.

@@ -70,18 +70,25 @@ inline Vector3 unit(Vector3 v) {
   return v;
 }
 
-/// The angle between two vectors below 2^21, 0 to 2^14 for 0 to 180 degrees, to half a percent.
-inline int64_t angle(const Vector3& a, const Vector3& b) {
-  Vector3 product = cross(a, b);
-  const int shift =
-      std::max(0, static_cast<int>(std::bit_width(static_cast<uint64_t>(largestMagnitude(product)))) - 30);
-  for (int64_t& x : product) x >>= shift;
-  const int64_t sine = squareRoot(static_cast<uint64_t>(dot(product, product)));
-  const int64_t cosine = dot(a, b) >> shift;
+/// The length of the cross product of two vectors below 2^21, in 31 bits.
+struct Sine {
+  explicit Sine(Vector3 product)
+      : shift(std::max(0, static_cast<int>(std::bit_width(static_cast<uint64_t>(largestMagnitude(product)))) - 30)) {
+    for (int64_t& x : product) x >>= shift;
+    value = squareRoot(static_cast<uint64_t>(dot(product, product)));
+  }
+
+  int shift;  ///< how many more there were
+  int64_t value;
+};
+
+/// The angle between two vectors whose products these are, 0 to 2^14 for 0 to 180 degrees, to half a percent.
+inline int64_t angle(const Sine& sine, int64_t dot_product) {
+  const int64_t cosine = dot_product >> sine.shift;
   const int64_t flat = cosine < 0 ? -cosine : cosine;
-  if (sine == 0 && flat == 0) return 0;
-  const bool steep = sine > flat;
-  const int64_t t = steep ? (flat << 12) / sine : (sine << 12) / flat;  // tangent, in 1/4096
+  if (sine.value == 0 && flat == 0) return 0;
+  const bool steep = sine.value > flat;
+  const int64_t t = steep ? (flat << 12) / sine.value : (sine.value << 12) / flat;  // tangent, in 1/4096
   // atan(t) is near t (pi/4 + 0.273 (1 - t)); pi/4 is 4096 here, 0.273 is 1424.
   const int64_t eighth = t * (4096 + (1424 * (4096 - t) >> 12)) >> 12;
   const int64_t quarter = steep ? 8192 - eighth : eighth;

@@ -82,6 +82,24 @@ class ValueGraph {
     return fans != kNone && twins_[takeFan(fans)] == kNone;
   }
 
+  /// Calls visit(ahead, behind) for each open fan of the site: the sites at its two boundary edges, on to which the
+  /// first one runs and from which the last one comes; kNone where that edge is not looked at. Until it says true.
+  template <class Visit>
+  void forEachOpenFan(Index site, Visit visit) const {
+    if (!isOpen(site)) return;
+    withFaces([&](const auto& faces) {
+      Index last = kNone;
+      bool done = false;
+      goRound(
+          faces, site, [&](Index, Index prev) { last = prev; },
+          [&](Index first, Index beyond) {
+            if (done || beyond == first) return;
+            const Index ahead = twins_[first] == kNone ? sites_[faces.next(first)] : kNone;
+            done = visit(ahead, beyond == kNone ? sites_[last] : kNone);
+          });
+    });
+  }
+
   /// The corners of a site.
   struct CornerList {
     std::array<Index, kMostCorners> corners;

@@ -28,9 +28,11 @@ class AnyGuide {
     if (kind == ValueKind::kDirection) direction_.emplace(graph, nodes, places, max, kind, weighting);
   }
 
-  void refine(const Surroundings& around, Stencil<4, int32_t>& stencil) {
-    if (texcoord_) texcoord_->refine(around, stencil);
-    if (direction_) direction_->refine(around, stencil);
+  bool predictsAlone() const { return direction_.has_value(); }
+
+  void refine(const Surroundings& around, const Vec<4, int32_t>& last, Stencil<4, int32_t>& stencil) {
+    if (texcoord_) texcoord_->refine(around, last, stencil);
+    if (direction_) direction_->refine(around, last, stencil);
   }
 
   void learn(Index site, const Vec<4, int32_t>& value) {

@@ -1,6 +1,7 @@
 #pragma once
 // Predictions from what is known besides the attribute itself. A guide looks at a site after its stencil and may put
-// a better prediction into it; afterwards it learns the site's value.
+// a better prediction into it; one that predicts alone is given a stencil that has gathered nothing but errors.
+// Afterwards it learns the site's value.
 
 #include <array>
 #include <cstdint>
@@ -22,10 +23,11 @@ inline constexpr int kWeightings = 3;
 template <int C>
 struct NoGuide {
   static SurroundingsFinder::Wanted wanted(ValueKind) { return {}; }
+  static constexpr bool predictsAlone() { return false; }
 
   NoGuide(const ValueGraph&, const Nodes<C>&, std::span<const int32_t>, int32_t, ValueKind, Weighting) {}
   template <class T>
-  void refine(const Surroundings&, Stencil<C, T>&) {}
+  void refine(const Surroundings&, const Vec<C, int32_t>&, Stencil<C, T>&) {}
   void learn(Index, const Vec<C, int32_t>&) {}
 };
 
@@ -66,12 +68,13 @@ class TexcoordGuide {
  public:
   /// Where there is a parallelogram, edges say more than what is far away.
   static SurroundingsFinder::Wanted wanted(ValueKind) { return {.edges = true, .far = false}; }
+  static constexpr bool predictsAlone() { return false; }
 
   TexcoordGuide(const ValueGraph& graph, const Nodes<C>& nodes, std::span<const int32_t> places, int32_t max, ValueKind,
                 Weighting)
       : nodes_(nodes), places_(places), states_(graph.siteCount()), limit_(int64_t{max} << kFraction) {}
 
-  TUTTE_APART void refine(const Surroundings& around, Stencil<C, int32_t>& stencil) {
+  TUTTE_APART void refine(const Surroundings& around, const Vec<C, int32_t>&, Stencil<C, int32_t>& stencil) {
     count_ = 0;
     int64_t here_error = 0, stencil_error = 0;
     for (const Index neighbour : around.neighbours()) {

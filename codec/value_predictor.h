@@ -62,8 +62,12 @@ class SitePredictor {
   TUTTE_APART void code(std::span<int32_t> values) {
     const Surroundings around = finder_.next();
     const std::span<int32_t> value = values.subspan(size_t{around.site()} * count_, static_cast<size_t>(count_));
-    stencil_.gather(around, wanted_, tangent_);
-    guide_.refine(around, stencil_);
+    if (guide_.predictsAlone()) {
+      stencil_.gatherErrors(around);
+    } else {
+      stencil_.gather(around, wanted_, tangent_);
+    }
+    guide_.refine(around, wanted_, stencil_);
     scale_.estimate(stencil_.neighbours, stencil_.error_sum);
     if (copies_ && copies_->look(around.site(), stencil_.base)) followOriginal();
     if constexpr (Port::kWriting) std::ranges::copy(value, wanted_.begin());

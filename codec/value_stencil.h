@@ -34,7 +34,7 @@ class Stencil {
         valences_(std::move(valences)),
         normal_shift_(std::max(0, static_cast<int>(std::bit_width(static_cast<uint32_t>(max))) - 14)) {}
 
-  /// `last` is used where nothing is known around the site.
+  /// All about the site. `last` is used where nothing is known around it.
   TUTTE_APART void gather(const Surroundings& around, const Vec<C, int32_t>& last, bool want_normal) {
     sumErrors(around.neighbours());
     normal.fill(0);
@@ -44,6 +44,15 @@ class Stencil {
       makeMembers<false>(around);
     }
     settle(around, last);
+  }
+
+  /// The neighbours alone, where predictions will be adopted.
+  void gatherErrors(const Surroundings& around) { sumErrors(around.neighbours()); }
+
+  /// What there is without parallelograms, after gatherErrors().
+  void settleWithout(const Surroundings& around, const Vec<C, int32_t>& last) {
+    member_count = 0;
+    settleFromAfar(around, last);
   }
 
   static constexpr int kMostMembers = 4;

@@ -175,7 +175,8 @@ int8_t findWeighting(const ValueSites& sites, const ValueFormat& format, std::sp
   // The one whose normals are nearest to the directions, whichever side these are on.
   std::array<int64_t, values::kWeightings> nearness{};
   for (int k = 0; k < values::kWeightings; ++k) {
-    const auto normals = values::surfaceNormals(sites.graph, values::Places(sites.places), static_cast<Weighting>(k));
+    const auto normals =
+        values::SurfaceNormals::of(sites.graph, values::Places(sites.places), static_cast<Weighting>(k));
     for (size_t site = 0; site < normals.size(); ++site) {
       const values::Vector3 normal{normals[site][0], normals[site][1], normals[site][2]};
       const auto direction = values::fromOctahedron(directions[2 * site], directions[2 * site + 1], format.max / 2);
