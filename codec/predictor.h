@@ -2,7 +2,9 @@
 // One stream's binary decisions, each predicted in several contexts at once and mixed.
 //
 // A symbol is coded as a few decisions, its *nodes*. Before its first decision, every context of the symbol is hashed
-// to a *line* of 16 slots, one per node; lines may collide, which costs a little compression and nothing else.
+// to a place in one table of slots. Node n has the slot at place XOR n: all are in one cache line of 16, and contexts
+// that share a line mostly have their frequent nodes at different ends of it. Slots may collide, which costs a little
+// compression and nothing else.
 
 #include <algorithm>
 #include <array>
@@ -19,18 +21,18 @@
 
 namespace tutte {
 
-inline constexpr int kNodes = 16;
+inline constexpr int kNodeBits = 4, kNodes = 1 << kNodeBits;
 
 struct alignas(64) Line {
   std::array<Slot, kNodes> slot;
 };
 
-/// What a Predictor's tables lie in. It remembers which lines were used, unless they were many, so that a small mesh
+/// What a Predictor's table lies in. It remembers which lines were used, unless they were many, so that a small mesh
 /// does not pay for clearing all of them.
 class TableMemory {
  public:
-  /// As many lines, as new. They belong to contexts by as many lines.
-  Line* clear(size_t lines) {
+  /// As many lines, as new.
+  Slot* clear(size_t lines) {
     if (lines_.size() == lines && left_ > 0) {
       for (Index line : touched_) lines_[line] = Line();
     } else {
@@ -39,13 +41,13 @@ class TableMemory {
     touched_.clear();
     left_ = lines / 2;
     touched_.reserve(left_ + 16);
-    return lines_.data();
+    return lines_.data()->slot.data();
   }
 
-  /// To be told the lines that are used for a symbol, as long as logs().
+  /// To be told the places that are used for a symbol, as long as logs().
   template <size_t n>
-  void touch(const std::array<Line*, n>& lines) {
-    for (Line* line : lines) touched_.push_back(static_cast<Index>(line - lines_.data()));
+  void touch(const std::array<uint32_t, n>& places) {
+    for (const uint32_t place : places) touched_.push_back(place / kNodes);
     left_ -= std::min(left_, n);
   }
   bool logs() const { return left_ > 0; }
@@ -65,8 +67,8 @@ struct Selectors {
   int situation = 0;  ///< 0 to kSituations - 1
 };
 
-/// `kContexts` tables and, for more than one context, the weights. `kRich`: three weight sets and a final map instead
-/// of one weight set. One more input is free for a matched prediction.
+/// The table of `kContexts` contexts and, for more than one context, the weights. `kRich`: three weight sets and a
+/// final map instead of one weight set. One more input is free for a matched prediction.
 template <int kContexts, bool kRich>
 class Predictor {
  public:
@@ -77,11 +79,11 @@ class Predictor {
   static constexpr int kSure = kRich ? 31 : 15;
   static_assert(kContexts < 16);
 
-  /// Tables of 2^table_bits lines, as new.
-  Predictor(int table_bits, TableMemory& memory)
-      : shift_(64 - table_bits), table_lines_(size_t{1} << table_bits), memory_(memory) {
-    lines_ = memory_->clear(table_lines_ * kContexts);
-    if (kMixes) memory_->runs.assign(table_lines_, {});
+  /// A table of 2^line_bits lines, and 2^run_bits runs, as new.
+  Predictor(int line_bits, int run_bits, TableMemory& memory)
+      : shift_(64 - line_bits - kNodeBits), run_shift_(64 - run_bits), memory_(memory) {
+    slots_ = memory_->clear(size_t{1} << line_bits);
+    if (kMixes) memory_->runs.assign(size_t{1} << run_bits, {});
     runs_ = memory_->runs.data();
     weights_.by_node.fill(kInitial);
     if constexpr (kRich) {
@@ -94,7 +96,7 @@ class Predictor {
   /// mesh is coded so, without looking at any context.
   [[gnu::always_inline]] bool isSure(uint64_t key) {
     if constexpr (!kMixes) return false;
-    run_ = &runs_[key * 0x9E3779B97F4A7C15u >> shift_];
+    run_ = &runs_[key * kHash >> run_shift_];
     return run_->isSure(kSure);
   }
 
@@ -110,13 +112,12 @@ class Predictor {
     run_->note(bit);
   }
 
-  /// Selects the lines for a symbol.
+  /// Selects the places for a symbol.
   [[gnu::always_inline]] void enter(const std::array<uint64_t, kContexts>& keys) {
-    Line* table = lines_;
-    for (int i = 0; i < kContexts; ++i, table += table_lines_) {
-      line_[i] = &table[keys[i] * 0x9E3779B97F4A7C15u >> shift_];
+    for (uint64_t i = 0; i < kContexts; ++i) {
+      place_[i] = static_cast<uint32_t>((keys[i] * kHash + i * kContextHash) >> shift_);
     }
-    if (memory_->logs()) memory_->touch(line_);
+    if (memory_->logs()) memory_->touch(place_);
   }
 
   /// Codes one decision.
@@ -131,7 +132,7 @@ class Predictor {
   }
   template <class Port>
   [[gnu::always_inline]] bool code(Port& port, Selectors selectors, bool value) requires(!kMixes) {
-    Slot& slot = line_[0]->slot[selectors.node];
+    Slot& slot = slots_[place_[0] ^ static_cast<uint32_t>(selectors.node)];
     const bool bit = port.code(slot.probability(), value);
     slot.update(bit);
     return bit;
@@ -151,15 +152,19 @@ class Predictor {
     const int32_t error = decide(port, selectors, inputs, match_length, value);
     const bool bit = error > 0;
     if (!isLarge(error)) return bit;
-    update<0, kUsed>(selectors.node, match, bit, std::make_index_sequence<8>());
-    if constexpr (kUsed > 8) update<8, kUsed>(selectors.node, match, bit, std::make_index_sequence<8>());
+    // All are read before any is written: a slot that contexts share learns once.
+    using Eight = std::make_index_sequence<8>;
+    const auto words = updated<0, kUsed>(selectors.node, match, bit, Eight());
+    if constexpr (kUsed > 8)
+      setWords<8, kUsed>(selectors.node, match, updated<8, kUsed>(selectors.node, match, bit, Eight()), Eight());
+    setWords<0, kUsed>(selectors.node, match, words, Eight());
     return bit;
   }
 
   // The slot of an input; what has none is `match`.
   template <int kInput>
   [[gnu::always_inline]] Slot& slotOf(int node, Slot* match) const {
-    if constexpr (kInput < kContexts) return line_[kInput]->slot[node];
+    if constexpr (kInput < kContexts) return slots_[place_[kInput] ^ static_cast<uint32_t>(node)];
     return *match;
   }
 
@@ -175,8 +180,13 @@ class Predictor {
   }
 
   template <int kFirst, int kUsed, size_t... i>
-  [[gnu::always_inline]] void update(int node, Slot* match, bool bit, std::index_sequence<i...>) {
-    const auto words = updatedSlots({(kFirst + i < kUsed ? slotOf<kFirst + i>(node, match).word() : 0)...}, bit);
+  [[gnu::always_inline]] std::array<uint32_t, 8> updated(int node, Slot* match, bool bit, std::index_sequence<i...>) {
+    return updatedSlots({(kFirst + i < kUsed ? slotOf<kFirst + i>(node, match).word() : 0)...}, bit);
+  }
+
+  template <int kFirst, int kUsed, size_t... i>
+  [[gnu::always_inline]] void setWords(int node, Slot* match, const std::array<uint32_t, 8>& words,
+                                       std::index_sequence<i...>) {
     ((kFirst + i < kUsed ? slotOf<kFirst + i>(node, match).setWord(words[i]) : void()), ...);
   }
 
@@ -243,11 +253,12 @@ class Predictor {
     return weights;
   }();
 
-  int shift_;
-  size_t table_lines_;
+  static constexpr uint64_t kHash = 0x9E3779B97F4A7C15u, kContextHash = 0xD1B54A32D192ED03u;
+
+  int shift_, run_shift_;
   Borrowed<TableMemory> memory_;
-  Line* lines_ = nullptr;
-  std::array<Line*, kContexts> line_{};
+  Slot* slots_ = nullptr;
+  std::array<uint32_t, kContexts> place_{};
   TableMemory::Run* runs_ = nullptr;  // by key: how often in a row the first decision was a yes
   TableMemory::Run* run_ = nullptr;
   std::conditional_t<kRich, RichWeights, PlainWeights> weights_;

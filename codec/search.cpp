@@ -17,7 +17,7 @@ Index uniformDegree(const Topology& topology) {
   return degree;
 }
 
-// Lines per context: enough for the mesh, few enough to be cleared in no time.
+// Enough for the mesh, few enough to be cleared in no time.
 int tableBitsFor(const Topology& topology) {
   return std::clamp(static_cast<int>(std::bit_width(topology.valence.size())) - 4, 7, 11);
 }
@@ -129,7 +129,7 @@ class Search {
     }
   }
 
-  // Fewer contexts share a line then; but a decoder has more to clear.
+  // Fewer contexts share a place then; but a decoder has more to clear.
   void tryMoreLines() {
     for (int more = 0; more < 2; ++more) {
       Candidate candidate = best_candidate_;

@@ -19,7 +19,7 @@ namespace tutte {
 struct SectionHeader {
   Profile profile = Profile::kPaper;
   bool match = false;        ///< repeated sequences of symbols are predicted (not by kPaper)
-  int table_bits = 7;        ///< 2^table_bits lines per context, 5 to 12 (not used by kPaper)
+  int table_bits = 7;        ///< of tables, 5 to 12; profiles add some (not used by kPaper)
   Index uniform_degree = 0;  ///< all faces have this degree, 3 to 15; 0: degrees are coded
   bool dual = false;         ///< the walk is over the dual mesh: its faces are the umbrellas, its umbrellas the faces
   bool closed = false;       ///< there are no dummy faces
@@ -39,10 +39,10 @@ struct SectionHeader {
   Index leastDegree() const { return dual ? 2 : 3; }
 };
 
-/// The most lines per context that a section of this many bytes may ask for: what a few bytes claim must not cost
-/// megabytes.
+/// The most table bits that a section of this many bytes may ask for: more would stay empty, and what a few bytes claim
+/// must not cost megabytes.
 constexpr int mostTableBits(size_t section_bytes) {
-  return std::clamp(static_cast<int>(std::bit_width(section_bytes)) + 1, 7, 12);
+  return std::clamp(static_cast<int>(std::bit_width(section_bytes)) - 1, 7, 12);
 }
 
 /// Head and symbols in one piece: two bytes of flags, and to the end the valences and degrees as the range coder made

@@ -25,13 +25,15 @@ struct ContextList {
 };
 
 /// A profile has lists of contexts, and says whether it is rich (see Predictor), whether the most frequent degree is
-/// asked for first (that takes fewer decisions, and a few bytes more), and whether any context looks at the history.
+/// asked for first (that takes fewer decisions, and a few bytes more), whether any context looks at the history, and
+/// how many more bits than the header says the tables of valences and degrees have: contexts of degrees are few.
 
 /// One context each, nothing to mix.
 struct FastProfile {
   using Vertex = ContextList<VertexContext::kPredicted>;
   using Face = ContextList<FaceContext::kEnds>;
   static constexpr bool kRich = false, kUsualDegree = true, kHistory = false;
+  static constexpr int kVertexBits = 0, kFaceBits = 0;
 };
 
 struct DefaultProfile {
@@ -40,6 +42,7 @@ struct DefaultProfile {
                   VertexContext::kSlots, VertexContext::kHistory, VertexContext::kSums>;
   using Face = ContextList<FaceContext::kEnds, FaceContext::kNearAngle, FaceContext::kEdge>;
   static constexpr bool kRich = false, kUsualDegree = true, kHistory = true;
+  static constexpr int kVertexBits = 2, kFaceBits = 0;
 };
 
 struct SmallProfile {
@@ -53,6 +56,7 @@ struct SmallProfile {
                            FaceContext::kBehind, FaceContext::kSums, FaceContext::kSlots, FaceContext::kBoth,
                            FaceContext::kEdgeAndDegrees, FaceContext::kDummies, FaceContext::kNothing>;
   static constexpr bool kRich = true, kUsualDegree = false, kHistory = true;
+  static constexpr int kVertexBits = 3, kFaceBits = 1;
 };
 
 /// The usual valence of a face degree's vertices, or the usual degree: the most frequent so far, at least 3.
@@ -94,8 +98,8 @@ class MixedStatistics {
 
   MixedStatistics(const SectionHeader& header, StatisticsMemory& memory)
       : header_(header),
-        vertices_(header.table_bits, memory.vertices),
-        faces_(header.degreesKnown() ? 1 : header.table_bits, memory.faces),
+        vertices_(header.table_bits + Profile::kVertexBits, header.table_bits, memory.vertices),
+        faces_(header.degreesKnown() ? 0 : header.table_bits + Profile::kFaceBits, 1, memory.faces),
         match_(header.match, memory.match) {}
 
   template <class Port>

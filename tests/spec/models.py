@@ -160,29 +160,21 @@ class Slot:
 class Mixer:
     """The decisions of one kind of symbol, in `contexts` contexts at once."""
 
-    def __init__(self, contexts, rich, table_bits):
-        self.contexts, self.rich, self.table_bits = contexts, rich, table_bits
-        self.tables = [{} for _ in range(contexts)]
-        self.lines = []
+    def __init__(self, contexts, rich, line_bits):
+        self.contexts, self.rich, self.line_bits = contexts, rich, line_bits
+        self.slots, self.places = {}, []
         weight = min(27 * 16384 // 100, 189 * 16384 // (100 * (contexts + 1)))
         self.weights = {}
         self.initial = [weight] * (contexts + 1)
         self.final = [[squashed(clamp(128 * i - 2048, -2047, 2047)) for i in range(33)] for _ in range(16)]
         self.decisions = self.rate = 0
 
-    def line(self, key):
-        return (key * 0x9E3779B97F4A7C15 % 2**64) >> (64 - self.table_bits)
-
     def enter(self, keys):
-        self.lines = []
-        for table, key in zip(self.tables, keys):
-            line = self.line(key)
-            if line not in table:
-                table[line] = [Slot() for _ in range(16)]
-            self.lines.append(table[line])
+        self.places = [(key * 0x9E3779B97F4A7C15 + i * 0xD1B54A32D192ED03) % 2**64 >> (60 - self.line_bits)
+                       for i, key in enumerate(keys)]
 
     def read(self, stream, node, situation, match, match_length):
-        slots = [line[node] for line in self.lines]
+        slots = [self.slots.setdefault(place ^ node, Slot()) for place in self.places]
         if self.contexts == 1:
             bit = stream.bit(clamp(slots[0].p, 16, 65520))
             slots[0].update(bit)
@@ -202,7 +194,7 @@ class Mixer:
             step = ((bit << 16) - squashed(opinion)) * self.rate >> 13
             for i, value in enumerate(inputs):
                 weights[i] = clamp(weights[i] + (value * step + 16384 >> 15), -32768, 32767)
-        for slot in slots + ([match] if match else []):
+        for slot in {id(slot): slot for slot in slots + ([match] if match else [])}.values():
             slot.update(bit)
         return bit
 

@@ -106,3 +106,6 @@ PROFILES = {
         ['ends', 'near angle', 'history', 'around', 'edge', 'least', 'angles', 'degrees', 'behind', 'sums', 'slots', 'both',
          'edge and degrees', 'dummies', 'nothing'], True),
 }
+
+# What the tables of valences and degrees have besides the section's table bits.
+TABLE_BITS = {1: (0, 0), 2: (2, 0), 3: (3, 1)}

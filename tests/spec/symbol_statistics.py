@@ -1,6 +1,6 @@
 """How degrees and valences are read, by profile: EXTENSION_SPEC.md, B.6 (paper) and B.8 (fast, default, small)."""
 from models import Bit, Match, Mixer, Number, Symbol
-from symbol_contexts import FACE, PROFILES, VERTEX, FaceFeatures, VertexFeatures
+from symbol_contexts import FACE, PROFILES, TABLE_BITS, VERTEX, FaceFeatures, VertexFeatures
 
 
 def compared(value, regular):
@@ -57,8 +57,9 @@ class Mixed:
     def __init__(self, section):
         self.section = section
         self.vertex_contexts, self.face_contexts, rich = PROFILES[section.profile]
-        self.vertices = Mixer(len(self.vertex_contexts), rich, section.table_bits)
-        self.faces = Mixer(len(self.face_contexts), rich, section.table_bits)
+        more_vertex_bits, more_face_bits = TABLE_BITS[section.profile]
+        self.vertices = Mixer(len(self.vertex_contexts), rich, section.table_bits + more_vertex_bits)
+        self.faces = Mixer(len(self.face_contexts), rich, section.table_bits + more_face_bits)
         self.rich, self.runs, self.plain_runs, self.sure = rich, {}, [0] * 16, 31 if rich else 15
         self.match = Match(section.match)
         self.valences, self.degrees = [0, 0, 0], [0, 0, 0]
@@ -66,6 +67,9 @@ class Mixed:
         self.usual = [6 if i == 3 else 4 for i in range(16)]
         self.degree_counts, self.usual_degree = [0] * 16, 4
         self.dummy_degree, self.large_degree, self.large_valence = Number(), Number(), Number()
+
+    def run_place(self, key):
+        return key * 0x9E3779B97F4A7C15 % 2**64 >> (64 - self.section.table_bits)
 
     def decide(self, stream, mixer, node, situation, answer):
         """`answer` maps the expected symbol to the bit that it means, or to None."""
@@ -161,7 +165,7 @@ class Mixed:
         shared = (f.face | f.missing << 4 | f.usual << 7) << 44
         self.vertices.enter([VERTEX[name](f) | shared for name in self.vertex_contexts])
         self.contradicted = False
-        place = self.vertices.line(VERTEX['sums'](f) | shared) if len(self.vertex_contexts) > 1 else None
+        place = self.run_place(VERTEX['sums'](f) | shared) if len(self.vertex_contexts) > 1 else None
         situation = face * 4 + (walk.missing > 1) * 2 + (walk.index > 0)
         valence = self.read_valence(stream, usual, situation, walk.head is None, place)
         self.count(face, valence)
