@@ -1,131 +1,148 @@
 #pragma once
-// Predictions of floats from the known values around a site.
+// Predictions of floats from the known values around a site. 32 bits hold everything, for values are below 2^27.
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <span>
 
-#include "codec/value_graph.h"
-#include "codec/value_tables.h"
+#include "codec/apart.h"
+#include "codec/value_lanes.h"
+#include "codec/value_nodes.h"
+#include "codec/value_surroundings.h"
 
 namespace tutte::numerals {
 
 inline constexpr int kMostComponents = 4;
-using Row = std::array<int64_t, kMostComponents>;
+using Row = values::Vec<kMostComponents, int32_t>;
+using Nodes = values::Nodes<kMostComponents>;
+inline constexpr int32_t kLargestError = 1 << 24;  ///< so that those of all neighbours fit
 
-/// A site whose value is known: its components in the units of their systems, and how far the predictions were off, in
-/// 1/16 of these.
-struct Node {
-  std::array<int32_t, kMostComponents> value{};
-  std::array<uint32_t, kMostComponents> error{};
-  bool known = false;
-};
-
-/// floor((a + b / 2) / b), b > 0.
-constexpr int64_t divideRounded(int64_t a, int64_t b) {
-  const int64_t sum = a + b / 2;
-  return sum >= 0 ? sum / b : -((-sum + b - 1) / b);
+template <class F>
+[[gnu::always_inline]] inline Row eachOf(F f) {
+  return values::eachOf<kMostComponents, int32_t>(f);
 }
 
-/// What is known around one site: parallelograms within its polygons or, without these, across the edges of its
-/// triangles; else the mean of its neighbours; else the value before. All in 1/16.
+/// What is known around one site: parallelograms, or else what lies farther away.
 class Stencil {
  public:
-  Stencil(const ValueGraph& graph, int components)
-      : graph_(graph), components_(components), nodes_(graph.siteCount()) {}
+  explicit Stencil(const Nodes& nodes) : nodes_(nodes) {}
 
-  void gather(Index site) {
-    members_ = 0;
-    neighbours_ = 0;
-    within_ = false;
-    error_sum_.fill(0);
-    sum_.fill(0);
-    for (const Index corner : graph_.corners(site)) visit(corner);
-    settle();
+  /// `last` is used where nothing is known around the site.
+  TUTTE_APART void gather(const values::Surroundings& around, const Row& last) {
+    const std::span<const Index> neighbours = around.neighbours();
+    neighbour_count = static_cast<int32_t>(neighbours.size());
+    constexpr size_t kStride = sizeof(values::Node<kMostComponents>) / sizeof(int32_t);
+    values::lanes::sumFours(error_sum.data(), nodes_[0].error.data(), kStride, neighbours);
+    makeMembers(around);
+    if (member_count > 0) averageMembers();
+    member_count > 1 ? spreadOfMembers() : settleFromAfar(around, last);
   }
 
-  Node& node(Index site) { return nodes_[site]; }
-  void remember(Index site) { last_ = nodes_[site].value; }
-
-  int members() const { return members_; }
-  bool hasNeighbours() const { return neighbours_ > 0; }
-  const Row& base() const { return base_; }
-  const Row& spread() const { return spread_; }  ///< how far the parallelograms, or two predictions, are apart
-  int64_t meanError(int component) const { return error_sum_[component] / neighbours_; }
+  int member_count = 0;  ///< parallelograms
+  Row base;              ///< the prediction
+  Row spread;            ///< how much predictions disagree
+  int32_t neighbour_count = 0;
+  Row error_sum;  ///< of the neighbours
 
  private:
-  static constexpr int kMostMembers = 8;
-  static constexpr int64_t kOne = 16;
+  static constexpr int kMostMembers = 4;
+  static constexpr int32_t kFarthest = 1 << 28;  // of a member that is scaled
 
-  const Node& at(Index corner) const { return nodes_[graph_.site(corner)]; }
-
-  void visit(Index corner) {
-    const Index next = graph_.next(corner), prev = graph_.prev(corner);
-    const Node &a = at(next), &b = at(prev);
-    if (a.known) addNeighbour(a);
-    if (b.known && graph_.twin(prev) == kNone) addNeighbour(b);
-    if (!a.known || !b.known) return;
-    const Index degree = graph_.degree(corner);
-    if (degree == 3) return visitTriangle(graph_.twin(next), a, b);
-    const int64_t scale = values::kPolygonRatio[std::min(degree, values::kLargestPolygon)].inverse;
-    const Node &c = at(graph_.next(next)), &d = at(graph_.prev(prev));
-    if (c.known) addWithin(a, b, c, scale);
-    if (degree > 4 && d.known) addWithin(b, a, d, scale);
+  const Row& value(Index site) const { return nodes_[site].value; }
+  Row parallelogram(const values::Term& term) const {
+    const Row &a = value(term.a), &b = value(term.b), &x = value(term.x);
+    return eachOf([&](size_t i) { return a[i] + b[i] - x[i]; });
   }
 
-  // from + (to - corner) / k, k being the ratio of a regular polygon's diagonal to its side.
-  void addWithin(const Node& from, const Node& to, const Node& corner, int64_t scale) {
-    if (!within_) members_ = 0;
-    within_ = true;
-    if (members_ == kMostMembers) return;
-    for (int i = 0; i < components_; ++i) {
-      member_[members_][i] = from.value[i] * kOne + ((int64_t{to.value[i]} - corner.value[i]) * scale >> 8);
+  // Those within polygons are better than those across edges.
+  void makeMembers(const values::Surroundings& around) {
+    member_count = 0;
+    for (const values::Term& term : around.scaled()) addScaled(term);
+    for (const values::Term& term : around.within()) {
+      if (member_count < kMostMembers) members_[static_cast<size_t>(member_count++)] = parallelogram(term);
     }
-    ++members_;
-  }
-
-  void visitTriangle(Index twin, const Node& a, const Node& b) {
-    if (within_ || twin == kNone || members_ == kMostMembers) return;
-    const Node& x = at(graph_.prev(twin));
-    const Node& y = graph_.degree(twin) == 3 ? x : at(graph_.next(graph_.next(twin)));
-    if (!x.known || !y.known) return;
-    for (int i = 0; i < components_; ++i) {
-      member_[members_][i] = (2 * (int64_t{a.value[i]} + b.value[i]) - x.value[i] - y.value[i]) * (kOne / 2);
+    if (member_count > 0) return;
+    for (const values::Term& term : around.across()) {
+      if (member_count == kMostMembers) break;
+      const Row &a = value(term.a), &b = value(term.b), &x = value(term.x), &y = value(term.y);
+      members_[static_cast<size_t>(member_count++)] =
+          eachOf([&](size_t i) { return (2 * (a[i] + b[i]) - x[i] - y[i]) >> 1; });
     }
-    ++members_;
   }
 
-  void addNeighbour(const Node& node) {
-    ++neighbours_;
-    for (int i = 0; i < components_; ++i) error_sum_[i] += node.error[i];
-    for (int i = 0; i < components_; ++i) sum_[i] += node.value[i] * kOne;
+  void addScaled(const values::Term& term) {
+    if (member_count == kMostMembers) return;
+    const Row &at = value(term.a), &to = value(term.b), &from = value(term.x);
+    members_[static_cast<size_t>(member_count++)] = eachOf([&](size_t i) {
+      const int64_t way = (int64_t{to[i]} - from[i]) * static_cast<int32_t>(term.y) >> 12;
+      return static_cast<int32_t>(std::clamp<int64_t>(at[i] + way, -kFarthest, kFarthest));
+    });
   }
 
-  void settle() {
-    for (int i = 0; i < components_; ++i) {
-      const int64_t around = neighbours_ > 0 ? divideRounded(sum_[i], neighbours_) : last_[i] * kOne;
-      int64_t sum = 0, widest = 0;
-      for (int m = 0; m < members_; ++m) {
-        sum += member_[m][i];
-        widest = std::max(widest, std::abs(member_[m][i] - member_[0][i]));
+  // Of three, the last one counts twice.
+  void averageMembers() {
+    const Row &first = members_[0], &second = members_[1];
+    if (member_count == 1) {
+      base = first;
+    } else if (member_count == 2) {
+      base = eachOf([&](size_t i) { return (first[i] + second[i] + 1) >> 1; });
+    } else {
+      const Row &third = members_[2], &last = members_[static_cast<size_t>(member_count) - 1];
+      base = eachOf([&](size_t i) { return (first[i] + second[i] + third[i] + last[i] + 2) >> 2; });
+    }
+  }
+
+  void spreadOfMembers() {
+    const Row& first = members_[0];
+    Row most{};
+    for (size_t m = 1; m < static_cast<size_t>(member_count); ++m) {
+      most = eachOf([&](size_t i) {
+        const int32_t off = members_[m][i] - first[i];
+        return std::max(most[i], off < 0 ? -off : off);
+      });
+    }
+    spread = most;
+  }
+
+  // Weaker predictions: the best is the base where there is no parallelogram, the next one measures its reliability.
+  void settleFromAfar(const values::Surroundings& around, const Row& last) {
+    bool have_base = member_count > 0, have_spread = false;
+    spread.fill(0);
+    const auto offer = [&](const auto& list, auto predict) {
+      if (list.empty() || have_spread) return;
+      const Row prediction = meanOf(list, predict);
+      if (have_base) {
+        spread = eachOf([&](size_t i) { return std::max(prediction[i] - base[i], base[i] - prediction[i]); });
+        have_spread = true;
+      } else {
+        base = prediction;
+        have_base = true;
       }
-      base_[i] = members_ > 0 ? divideRounded(sum, members_) : around;
-      spread_[i] = members_ > 1 ? widest : std::abs(base_[i] - around);
-    }
+    };
+    offer(around.over(), [&](const values::Term& term) { return parallelogram(term); });
+    offer(around.straight(), [&](const values::Term& term) { return parallelogram(term); });
+    offer(around.neighbours(), [&](Index site) { return value(site); });
+    if (!have_base) base = last;
   }
 
-  const ValueGraph& graph_;
-  const int components_;
-  std::vector<Node> nodes_;
-  std::array<int32_t, kMostComponents> last_{};
+  // Of the first four. Of three, the last one counts twice.
+  template <class List, class Predict>
+  static Row meanOf(const List& list, Predict predict) {
+    Row sum{}, last{};
+    const size_t count = std::min<size_t>(list.size(), 4);
+    for (size_t k = 0; k < count; ++k) {
+      last = predict(list[k]);
+      sum = eachOf([&](size_t i) { return sum[i] + last[i]; });
+    }
+    if (count == 1) return sum;
+    if (count == 2) return eachOf([&](size_t i) { return (sum[i] + 1) >> 1; });
+    const int32_t again = count == 3 ? -1 : 0;
+    return eachOf([&](size_t i) { return (sum[i] + (last[i] & again) + 2) >> 2; });
+  }
 
-  // Of the current site.
-  int members_ = 0;
-  bool within_ = false;
-  int64_t neighbours_ = 0;
-  std::array<Row, kMostMembers> member_;
-  Row base_{}, spread_{}, sum_{}, error_sum_{};
+  const Nodes& nodes_;
+  std::array<Row, kMostMembers> members_;
 };
 
 }  // namespace tutte::numerals

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "codec/numeral_coder.h"
-#include "codec/range_coder.h"
+#include "codec/value_port.h"
 
 namespace tutte {
 
@@ -18,36 +18,36 @@ bool NumeralFormat::valid() const {
   const NumeralSystem& system = systems[0];
   const int one = system.spare() - system.top;
   return std::all_of(systems.begin(), systems.begin() + related, [&](const auto& other) { return other == system; }) &&
-         one >= 0 && one <= system.digits + system.spare();
+         one >= 0 && one <= system.allDigits();
 }
 
 std::vector<uint8_t> encodeNumerals(const ValueGraph& graph, const NumeralFormat& format,
                                     std::span<const uint32_t> floats) {
-  RangeWriter port;
-  numerals::SiteCoder<RangeWriter> coder(port, graph, format);
-  const size_t count = static_cast<size_t>(format.components);
+  ValueWriter port;
+  numerals::SiteCoder<ValueWriter> coder(port, graph, format);
+  const auto count = static_cast<size_t>(format.components);
   std::array<uint32_t, numerals::kMostComponents> bits{};
-  for (Index site = 0; site < graph.siteCount(); ++site) {
+  for (size_t site = 0; site < graph.siteCount(); ++site) {
     std::copy_n(&floats[site * count], count, bits.begin());
-    coder.code(site, bits);
+    coder.code(bits);
   }
-  return std::move(port).finish();
+  ByteWriter out;
+  std::move(port).finish(out);
+  return std::move(out).take();
 }
 
 Result<std::vector<uint32_t>> decodeNumerals(const ValueGraph& graph, const NumeralFormat& format,
                                              std::span<const uint8_t> bytes) {
   if (!format.valid()) return Error::kMalformed;
-  RangeReader port(bytes);
-  numerals::SiteCoder<RangeReader> coder(port, graph, format);
-  const size_t count = static_cast<size_t>(format.components);
+  ValueReader port(bytes);
+  numerals::SiteCoder<ValueReader> coder(port, graph, format);
+  const auto count = static_cast<size_t>(format.components);
   std::vector<uint32_t> floats(graph.siteCount() * count);
-  for (Index site = 0; site < graph.siteCount(); ++site) {
-    coder.code(site, std::span(floats).subspan(site * count, count));
+  for (size_t site = 0; site < graph.siteCount(); ++site) {
+    coder.code(std::span(floats).subspan(site * count, count));
     if (coder.damaged()) return Error::kMalformed;
-    if (site % 1024 == 0 && port.overrun()) return Error::kTruncated;
   }
-  if (port.overrun()) return Error::kTruncated;
-  return port.trailing() ? Result<std::vector<uint32_t>>(Error::kTrailingBytes) : floats;
+  return port.wrongEnd() ? Result<std::vector<uint32_t>>(Error::kMalformed) : floats;
 }
 
 }  // namespace tutte

@@ -35,7 +35,7 @@ struct NumeralFormat {
 std::vector<uint8_t> encodeNumerals(const ValueGraph& graph, const NumeralFormat& format,
                                     std::span<const uint32_t> floats);
 
-/// The bit patterns of any bytes, or an error (kTruncated, kMalformed, kTrailingBytes). All of `bytes` must be used.
+/// The bit patterns of any bytes, or kMalformed. All of `bytes` must be used.
 Result<std::vector<uint32_t>> decodeNumerals(const ValueGraph& graph, const NumeralFormat& format,
                                              std::span<const uint8_t> bytes);
 

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
-#include <optional>
 
 namespace tutte {
 
@@ -24,28 +23,32 @@ struct NumeralSystem {
   int least = -149;
   int top = 104;
 
+  static constexpr int kMostBinary = 24, kMostDecimal = 8;  ///< digits
+
   bool operator==(const NumeralSystem&) const = default;
 
-  /// True when the limits make sense: 1 to 24 binary or 1 to 9 decimal digits; -149 <= least <= top <= 104, or -22
+  /// True when the limits make sense: 1 to 24 binary or 1 to 8 decimal digits; -149 <= least <= top <= 104, or -22
   /// to 22.
   bool valid() const {
     const bool binary = radix == 2;
-    return (binary || radix == 10) && digits >= 1 && digits <= (binary ? 24 : 9) && least <= top &&
+    return (binary || radix == 10) && digits >= 1 && digits <= (binary ? kMostBinary : kMostDecimal) && least <= top &&
            least >= (binary ? -149 : -22) && top <= (binary ? 104 : 22);
   }
 
-  /// Predictions are made in units of radix^(top - spare()), in which all numbers are below 2^30.
-  int spare() const { return (radix == 2 ? 30 : 9) - digits; }
+  /// Predictions are made in units of radix^(top - spare()), in which all numbers are below 2^27.
+  int spare() const { return allDigits() - digits; }
+  /// What a number in these units has at most.
+  int allDigits() const { return radix == 2 ? 27 : kMostDecimal; }
 
   /// radix^exponent, exponent 0 to 40 (binary) or 0 to 18 (decimal).
   int64_t power(int exponent) const { return radix == 2 ? int64_t{1} << exponent : kPowersOf10[exponent]; }
 
   /// How many digits a number below power(18) or 2^62 has; 0 for 0.
   int digitsOf(int64_t number) const {
-    if (radix == 2) return static_cast<int>(std::bit_width(static_cast<uint64_t>(number)));
-    int count = 0;
-    while (count < 18 && number >= kPowersOf10[count]) ++count;
-    return count;
+    const auto width = static_cast<int>(std::bit_width(static_cast<uint64_t>(number)));
+    if (radix == 2) return width;
+    const int least_count = width * 1233 >> 12;  // log10(2) is a little more than that
+    return least_count + (number >= kPowersOf10[least_count]);
   }
 
   /// A number in units of radix^(top - spare()), rounded towards zero. x must not exceed `top`.
@@ -55,9 +58,9 @@ struct NumeralSystem {
     return -up > digits ? 0 : static_cast<int32_t>(numeral.n / power(-up));
   }
 
-  /// The bits of the float nearest to a numeral; nothing when it is too large. Decimal: |x| <= 22, one operation in
-  /// binary64, then rounded, which every platform does alike.
-  std::optional<uint32_t> floatOf(const Numeral& numeral) const {
+  /// The bits of the float nearest to a numeral. Decimal: |x| <= 22, one operation in binary64, then rounded, which
+  /// every platform does alike.
+  uint32_t floatOf(const Numeral& numeral) const {
     if (numeral.n == 0) return 0;
     return radix == 2 ? binaryFloat(numeral) : decimalFloat(numeral);
   }
@@ -73,19 +76,25 @@ struct NumeralSystem {
   }();
 
  private:
-  static std::optional<uint32_t> binaryFloat(const Numeral& numeral) {
+  static constexpr std::array<double, 23> kExactPowers = [] {
+    std::array<double, 23> table{};
+    double power = 1;
+    for (double& entry : table) {
+      entry = power;
+      power *= 10;
+    }
+    return table;
+  }();
+
+  static uint32_t binaryFloat(const Numeral& numeral) {
     const int width = static_cast<int>(std::bit_width(numeral.n)), exponent = numeral.x + width + 126;
-    if (exponent >= 255) return {};
     if (exponent <= 0) return numeral.n << (numeral.x + 149);
     return static_cast<uint32_t>(exponent) << 23 | ((numeral.n << (24 - width)) & 0x7FFFFF);
   }
 
-  static std::optional<uint32_t> decimalFloat(const Numeral& numeral) {
-    double power = 1;
-    for (int i = std::abs(numeral.x); i > 0; --i) power *= 10;  // exact up to 10^22
-    const auto rounded = static_cast<float>(numeral.x < 0 ? numeral.n / power : numeral.n * power);
-    const auto bits = std::bit_cast<uint32_t>(rounded);
-    return bits < 0x7F800000u ? std::optional(bits) : std::nullopt;
+  static uint32_t decimalFloat(const Numeral& numeral) {
+    const double power = kExactPowers[std::abs(numeral.x)];
+    return std::bit_cast<uint32_t>(static_cast<float>(numeral.x < 0 ? numeral.n / power : numeral.n * power));
   }
 };
 

@@ -15,7 +15,8 @@ namespace tutte::values {
 template <int C>
 class ErrorScale {
  public:
-  explicit ErrorScale(int components) : part_(components == 3 ? 21845 : 65536 / components) {}
+  explicit ErrorScale(int components, int32_t typical = 64)
+      : part_(components == 3 ? 21845 : 65536 / components), typical_(typical) {}
 
   /// Of each component, and on average.
   const Vec<C, int32_t>& near() const { return near_; }
@@ -53,7 +54,7 @@ class ErrorScale {
 
   const int part_;  // 65536 / components
   Vec<C, int32_t> near_{};
-  int32_t all_ = 0, typical_ = 64;
+  int32_t all_ = 0, typical_;
 };
 
 }  // namespace tutte::values

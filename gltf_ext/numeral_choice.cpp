@@ -109,7 +109,7 @@ NumeralSystem chooseSystem(const Attribute& attribute, int component) {
   const Census census = takeCensus(attribute, component);
   if (census.binary.empty()) return {2, 1, 0, 0};
   const Choice binary = exactBinary(census.binary);
-  const Choice decimal = bestOf(census.decimal, 10, 1, 9);
+  const Choice decimal = bestOf(census.decimal, 10, 1, NumeralSystem::kMostDecimal);
   return decimal.cost < binary.cost ? decimal.system : binary.system;
 }
 

@@ -3,12 +3,13 @@
 
 decode(section) -> Mesh. As a program: decode.py FOLDER checks every FOLDER/*.section against FOLDER/*.mesh, both made by
 the encoder's tests (tests/spec/vectors.cpp), the worked example in EXTENSION_SPEC.md against FOLDER/cube.paper.section, and
-the streams of attribute values in FOLDER/*.values (values.py), and vertices, wedges and seams of FOLDER/*.payload (seams.py).
+the streams of attribute values in FOLDER/*.values (values.py) and of lossless floats in FOLDER/*.numerals (numerals.py), and vertices, wedges and seams of FOLDER/*.payload (seams.py).
 """
 import re
 import sys
 from pathlib import Path
 
+import numerals
 import seams
 import values
 from models import Bit, Number, require
@@ -234,18 +235,26 @@ def example_bytes(document):
     return bytes.fromhex(re.search(r'The section of the cube, in profile paper:\s*```\n([0-9a-f\s]*)```', document).group(1))
 
 
-def check_values(path):
-    """How many streams there are, and which of them decode to other numbers."""
+def read_values(mesh, sites, line):
+    m, maximum, head, data, numbers, *places = line.split()
+    places = [int(x) for x in places[0].split(',')] if places else []
+    return values.decode(mesh, sites, mesh.vertex_count, int(m), int(maximum), int(head), bytes.fromhex(data), places), numbers
+
+
+def read_numerals(mesh, sites, line):
+    relation, systems, data, floats = line.split()
+    systems = [[int(x) for x in system.split(',')] for system in systems.split(';')]
+    return numerals.decode(mesh, sites, mesh.vertex_count, int(relation), systems, bytes.fromhex(data)), floats
+
+
+def check_streams(path, read):
+    """How many streams there are, one per line, and which of them decode to other numbers."""
     mesh = decode(path.with_suffix('.section').read_bytes())
     sites = [mesh.vertices[umbrella] for umbrella in mesh.umbrellas]
-    lines, wrong = path.read_text().splitlines(), []
-    for line in lines:
-        m, maximum, head, data, numbers, *places = line.split()
-        places = [int(x) for x in places[0].split(',')] if places else []
-        found = values.decode(mesh, sites, mesh.vertex_count, int(m), int(maximum), int(head), bytes.fromhex(data), places)
-        if found != [int(x) for x in numbers.split(',')]:
-            wrong.append(f'{path.stem}, values of {m} components, head {head}')
-    return len(lines), wrong
+    lines = path.read_text().splitlines()
+    read_all = ((k, *read(mesh, sites, line)) for k, line in enumerate(lines))
+    return len(lines), [f'{path.name}, line {k + 1}' for k, found, numbers in read_all
+                        if found != [int(x) for x in numbers.split(',')]]
 
 
 def described_seams(data):
@@ -271,11 +280,12 @@ def main(folder):
     if example_bytes(document.read_text()) != (Path(folder) / 'cube.paper.section').read_bytes():
         wrong.append('the worked example of EXTENSION_SPEC.md')
     streams = 0
-    for path in sorted(Path(folder).glob('*.values')):
-        count, bad = check_values(path)
-        streams += count
-        wrong += bad
-    print(f'{streams} streams of values read')
+    for suffix, read in (('values', read_values), ('numerals', read_numerals)):
+        for path in sorted(Path(folder).glob('*.' + suffix)):
+            count, bad = check_streams(path, read)
+            streams += count
+            wrong += bad
+    print(f'{streams} streams of values and numerals read')
     payloads = sorted(Path(folder).glob('*.payload'))
     torn = [path.stem for path in payloads if described_seams(path.read_bytes()) != path.with_suffix('.seams').read_text()]
     print(f'{len(payloads) - len(torn)} of {len(payloads)} payloads have the same vertices, wedges and seams')

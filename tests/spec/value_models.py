@@ -172,14 +172,14 @@ PRIORS = priors()
 
 
 class Habit:
-    def __init__(self, prior):
-        self.above, self.rate = list(prior), 5461
+    def __init__(self, prior, last_rate=350):
+        self.above, self.rate, self.last_rate = list(prior), 5461, last_rate
 
     def learn(self, symbol):
         for i, x in enumerate(self.above):
             target = 3 * (15 - i) + (32720 if i < symbol else 0)
             self.above[i] += (target - x) * self.rate >> 16
-        self.rate -= (self.rate - 350) * self.rate >> 16
+        self.rate -= (self.rate - self.last_rate) * self.rate >> 16
 
 
 class Classes:

@@ -13,7 +13,7 @@ POLYGONS = {4: (4096, 4096), 5: (6627, 2531), 6: (8192, 2048), 7: (9204, 1823), 
 
 class Surroundings:
     def __init__(self, coder, site):
-        self.coder, self.m = coder, coder.m
+        self.coder, self.m, self.site = coder, coder.m, site
         graph, known, values = coder.graph, coder.known, coder.values
         self.neighbours, self.normal = [], [0, 0, 0]
         polygons, quads, triangles, normals = [], [], [], []
@@ -71,7 +71,7 @@ class Surroundings:
 
     def parallelogram(self, a, b, x, y):
         v = self.coder.values
-        return [(2 * (v[a][i] + v[b][i]) - v[x][i] - v[y][i]) * 8 for i in range(self.m)]
+        return [(2 * (v[a][i] + v[b][i]) - v[x][i] - v[y][i]) * self.coder.one >> 1 for i in range(self.m)]
 
     def shift(self, member, a, b, x, site):
         def shape(o):
@@ -113,16 +113,19 @@ class Surroundings:
         if len(members) > 1:
             self.spread = [max(abs(x[i] - members[0][i]) for x in members) for i in range(m)]
             return
-        offers, v = self.far(site) if len(members) <= self.coder.far_limit else [], self.coder.values
+        offers = self.far(site) if len(members) <= self.coder.far_limit else []
         if self.neighbours:
-            offers.append((AROUND, [mean(16 * sum(v[s][i] for s in self.neighbours), len(self.neighbours))
-                                    for i in range(m)]))
+            offers.append((AROUND, self.around()))
         if not members:
-            self.source, self.base = offers.pop(0) if offers else (LAST, [16 * x for x in self.coder.last])
+            self.source, self.base = offers.pop(0) if offers else (LAST, [self.coder.one * x for x in self.coder.last])
             self.lean = self.base
         if offers:
             self.lean = offers[0][1]
             self.spread = [abs(self.lean[i] - self.base[i]) for i in range(m)]
+
+    def around(self):
+        v, count = self.coder.values, len(self.neighbours)
+        return [mean(16 * sum(v[s][i] for s in self.neighbours), count) for i in range(self.m)]
 
     def average(self, predictions):
         weighed = predictions + predictions[2:] if len(predictions) == 3 else predictions
@@ -130,12 +133,13 @@ class Surroundings:
 
     def far(self, site):
         graph, known, v, across, straight = self.coder.graph, self.coder.known, self.coder.values, [], []
+        one, beside = self.coder.one, self.m == 3 or self.coder.beside
 
         def look(a, c, degree, y, x):
-            if degree > 3 and known(x) and known(c) and len(across) < 4 and not (self.m == 3 and both):
-                across.append([(v[a][i] + v[c][i] - v[x][i]) * 16 for i in range(self.m)])
+            if degree > 3 and known(x) and known(c) and len(across) < 4 and not (beside and both):
+                across.append([(v[a][i] + v[c][i] - v[x][i]) * one for i in range(self.m)])
             if degree > 3 and known(y) and len(straight) < 4:
-                straight.append([(2 * v[a][i] - v[y][i]) * 16 for i in range(self.m)])
+                straight.append([(2 * v[a][i] - v[y][i]) * one for i in range(self.m)])
 
         for corner in graph.corners(site):
             if graph.degree[corner] <= 3:

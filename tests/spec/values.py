@@ -16,6 +16,8 @@ PLAIN, POINTS, TEXTURE, DIRECTION, LABEL, ANGULAR = range(6)
 # D.4.7 Values
 
 class Coder:
+    one, beside = 16, False
+
     def __init__(self, graph, m, maximum, kind, profile, echoes, copies, stream, places, weighting):
         self.graph, self.m, self.max, self.kind, self.stream = graph, m, maximum, kind, stream
         self.profile, self.coded = profile, 0

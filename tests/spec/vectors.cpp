@@ -1,5 +1,6 @@
 // Writes test vectors for decoders: per shape the encoder's connectivity section and, as text, the mesh that it means;
-// for small shapes also streams of attribute values and, as text, the numbers that they mean, and payloads with seams.
+// for small shapes also streams of attribute values and of lossless floats and, as text, the numbers that they mean,
+// and payloads with seams.
 //
 //   vectors FOLDER
 
@@ -16,6 +17,8 @@
 #include "codec/values.h"
 #include "codec/wedges.h"
 #include "tests/shapes/shapes.h"
+#include "tests/spec/numbers_over.h"
+#include "tests/spec/numeral_vectors.h"
 
 namespace tutte {
 namespace {
@@ -46,34 +49,6 @@ bool writeVector(const std::filesystem::path& folder, const shapes::Named& named
   std::ofstream mesh(folder / (named.name + suffix + ".mesh"));
   describe(*decoded, mesh);
   return section.good() && mesh.good();
-}
-
-/// Numbers over a mesh's vertices, smooth like coordinates: per component the distance from some vertex, and noise.
-std::vector<int32_t> numbersOver(const Connectivity& mesh, int components, int32_t max, Index noise) {
-  shapes::Random random(static_cast<uint64_t>(max) + noise);
-  std::vector<int32_t> numbers(size_t{mesh.vertex_count} * components);
-  for (int i = 0; i < components; ++i) {
-    std::vector<int32_t> steps(mesh.vertex_count, 0);
-    steps[random.below(mesh.vertex_count)] = 1;
-    for (bool more = true; std::exchange(more, false);) {
-      Index begin = 0;
-      for (const Index degree : mesh.face_degrees) {
-        for (Index c = 0; c < degree; ++c) {
-          const int32_t here = steps[mesh.vertexOf(begin + c)];
-          int32_t& beyond = steps[mesh.vertexOf(begin + (c + 1) % degree)];
-          if (here == 0 || (beyond != 0 && beyond <= here + 1)) continue;
-          beyond = here + 1;
-          more = true;
-        }
-        begin += degree;
-      }
-    }
-    for (Index v = 0; v < mesh.vertex_count; ++v) {
-      const int64_t smooth = int64_t{steps[v]} * (max / 9 + 1) / 2 + random.below(noise + 1);
-      numbers[size_t{v} * components + i] = static_cast<int32_t>(std::min<int64_t>(smooth, max));
-    }
-  }
-  return numbers;
 }
 
 /// One stream per line: components, max, head, bytes, numbers, and for some the vertices' places.
@@ -141,9 +116,10 @@ bool writeValues(const std::filesystem::path& folder, const shapes::Named& named
   if (!encoded) return false;
   const Index vertices = encoded->connectivity.vertex_count;
   if (vertices == 0 || vertices > 64) return true;
-  std::ofstream out(folder / (named.name + ".values"));
-  ValueVectors(encoded->connectivity, out).write();
-  return out.good();
+  std::ofstream values(folder / (named.name + ".values")), numerals(folder / (named.name + ".numerals"));
+  ValueVectors(encoded->connectivity, values).write();
+  NumeralVectors(encoded->connectivity, numerals).write();
+  return values.good() && numerals.good();
 }
 
 /// Parts of wholes: corners of faces that happen to get the same one of `colours` colours stay together.
