@@ -21,6 +21,15 @@
 
 namespace tutte::numerals {
 
+/// Nine symbols are equally likely; the others keep as little as they can.
+TUTTE_TABLE values::Distribution kNinths = madeTable([] {
+  values::Distribution ninths;
+  for (uint32_t i = 0; i < 15; ++i) {
+    ninths.above[i] = static_cast<uint16_t>(i < 8 ? (32768 - 7) / 9 * (8 - i) + 7 : 15 - i);
+  }
+  return ninths;
+});
+
 /// All sites' floats, in the order of the sites.
 template <class Port>
 class SiteCoder {
@@ -221,15 +230,6 @@ class SiteCoder {
   }
 
   static constexpr size_t kDepths = NumeralSystem::kMostBinary;
-
-  /// Nine symbols are equally likely; the others keep as little as they can.
-  static TUTTE_TABLE values::Distribution kNinths = madeTable([] {
-    values::Distribution ninths;
-    for (uint32_t i = 0; i < 15; ++i) {
-      ninths.above[i] = static_cast<uint16_t>(i < 8 ? (32768 - 7) / 9 * (8 - i) + 7 : 15 - i);
-    }
-    return ninths;
-  });
 
   Port& port_;
   const NumeralFormat& format_;

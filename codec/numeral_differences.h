@@ -23,6 +23,50 @@ struct DifferenceContext {
 inline constexpr uint32_t kKinds = 5, kSolved = 4;
 inline constexpr int64_t kNoDifference = INT64_MIN;  ///< what has none
 
+inline constexpr uint32_t kCells = 19, kMostSmall = 3;
+inline constexpr int kFirstRate = 14000, kLastRate = 1300;
+
+/// What is expected before anything was seen: magnitudes of m and more have the probability (3 s / (3 s + m))^3, s
+/// being the expected size, and everything keeps a little.
+TUTTE_TABLE std::array<values::Distribution, kCells> kLengthPriors = madeTable([] {
+  std::array<values::Distribution, kCells> priors{};
+  uint64_t power = 77936;  // 2^(1/4 + cell / 2), in 1/65536
+  for (values::Distribution& prior : priors) {
+    const uint64_t size = (power - 65536) * 3 >> 9;  // three times, in 1/256
+    uint64_t last = 32768;
+    for (uint32_t i = 0; i < 15; ++i) {
+      const uint64_t ratio = (size << 16) / (size + (uint64_t{256} << i) - 128);
+      const uint64_t beyond = ((ratio * ratio >> 16) * ratio >> 16) * 32112 / 65536 + 656;
+      last = std::max<uint64_t>(std::min(beyond, last - 3), 3 * (15 - i));
+      prior.above[i] = static_cast<uint16_t>(last);
+    }
+    prior.above[15] = static_cast<uint16_t>(-kFirstRate);
+    power = power * 92682 >> 16;
+  }
+  return priors;
+});
+
+/// By the number of digits below the first: these and the sign are equally likely.
+TUTTE_TABLE std::array<values::Distribution, kMostSmall> kSmallPriors = madeTable([] {
+  std::array<values::Distribution, kMostSmall> priors{};
+  for (uint32_t digits = 0; digits < kMostSmall; ++digits) {
+    const uint32_t count = 2u << digits;
+    for (uint32_t i = 0; i < 15; ++i) {
+      const uint32_t above = i + 1 < count ? 32768 / count * (count - 1 - i) : 0;
+      priors[digits].above[i] = static_cast<uint16_t>(std::max(above, 3 * (15 - i)));
+    }
+    priors[digits].above[15] = static_cast<uint16_t>(-kFirstRate);
+  }
+  return priors;
+});
+
+/// values::kTargets, at a higher last rate.
+TUTTE_TABLE std::array<values::Distribution, values::kSymbols> kLengthTargets = madeTable([] {
+  std::array<values::Distribution, values::kSymbols> targets = values::kTargets;
+  for (values::Distribution& target : targets) target.above[15] = static_cast<uint16_t>(-kLastRate);
+  return targets;
+});
+
 /// Differences below 2^55. Their bit lengths are symbols: 0, or one of fourteen of which the expected one is about the
 /// tenth, or whatever is longer or shorter. The sign and the digits below the first are plain, but where a component
 /// nearly follows from others, small differences are symbols, too.
@@ -31,8 +75,8 @@ class DifferenceCoder {
  public:
   explicit DifferenceCoder(Port& port)
       : port_(port),
-        firsts_(kKinds * 2 * kCells, [](uint32_t i) { return kPriors[i % kCells]; }),
-        seconds_(kSpreads * kNears * kCells, [](uint32_t i) { return kPriors[i % kCells]; }),
+        firsts_(kKinds * 2 * kCells, [](uint32_t i) { return kLengthPriors[i % kCells]; }),
+        seconds_(kSpreads * kNears * kCells, [](uint32_t i) { return kLengthPriors[i % kCells]; }),
         small_(kMostSmall, [](uint32_t i) { return kSmallPriors[i]; }),
         outside_(kKinds + kNone / 4, [](uint32_t) { return values::kEvenPrior; }) {}
 
@@ -60,53 +104,10 @@ class DifferenceCoder {
 
  private:
   using Distribution = values::Distribution;
-  using Distributions = std::array<Distribution, values::kSymbols>;
   static constexpr int kBelow = 9, kInside = 14;
   static constexpr uint32_t kOutside = 15;
   static constexpr int kNone = 56;  // from this length on, there is no difference
-  static constexpr uint32_t kCells = 19, kSpreads = 8, kNears = 4, kMostSmall = 3;
-  static constexpr int kFirstRate = 14000, kLastRate = 1300;
-
-  /// What is expected before anything was seen: magnitudes of m and more have the probability (3 s / (3 s + m))^3, s
-  /// being the expected size, and everything keeps a little.
-  static TUTTE_TABLE std::array<Distribution, kCells> kPriors = madeTable([] {
-    std::array<Distribution, kCells> priors{};
-    uint64_t power = 77936;  // 2^(1/4 + cell / 2), in 1/65536
-    for (Distribution& prior : priors) {
-      const uint64_t size = (power - 65536) * 3 >> 9;  // three times, in 1/256
-      uint64_t last = 32768;
-      for (uint32_t i = 0; i < 15; ++i) {
-        const uint64_t ratio = (size << 16) / (size + (uint64_t{256} << i) - 128);
-        const uint64_t beyond = ((ratio * ratio >> 16) * ratio >> 16) * 32112 / 65536 + 656;
-        last = std::max<uint64_t>(std::min(beyond, last - 3), 3 * (15 - i));
-        prior.above[i] = static_cast<uint16_t>(last);
-      }
-      prior.above[15] = static_cast<uint16_t>(-kFirstRate);
-      power = power * 92682 >> 16;
-    }
-    return priors;
-  });
-
-  /// By the number of digits below the first: these and the sign are equally likely.
-  static TUTTE_TABLE std::array<Distribution, kMostSmall> kSmallPriors = madeTable([] {
-    std::array<Distribution, kMostSmall> priors{};
-    for (uint32_t digits = 0; digits < kMostSmall; ++digits) {
-      const uint32_t count = 2u << digits;
-      for (uint32_t i = 0; i < 15; ++i) {
-        const uint32_t above = i + 1 < count ? 32768 / count * (count - 1 - i) : 0;
-        priors[digits].above[i] = static_cast<uint16_t>(std::max(above, 3 * (15 - i)));
-      }
-      priors[digits].above[15] = static_cast<uint16_t>(-kFirstRate);
-    }
-    return priors;
-  });
-
-  /// values::kTargets, at a higher last rate.
-  static TUTTE_TABLE Distributions kTargets = madeTable([] {
-    Distributions targets = values::kTargets;
-    for (Distribution& target : targets) target.above[15] = static_cast<uint16_t>(-kLastRate);
-    return targets;
-  });
+  static constexpr uint32_t kSpreads = 8, kNears = 4;
 
   [[gnu::always_inline]] uint32_t codeLength(const DifferenceContext& about, uint32_t symbol) {
     const auto cell = std::min(static_cast<uint32_t>(about.size) / 2, kCells - 1);
@@ -115,14 +116,14 @@ class DifferenceCoder {
     Distribution& first = firsts_[(about.kind * 2 + about.sure) * kCells + cell];
     Distribution& second = seconds_[(spread * kNears + near) * kCells + cell];
     symbol = port_.symbol(values::Parts(first, second), symbol);
-    approach(first, kTargets[symbol]);
-    approach(second, kTargets[symbol]);
+    approach(first, kLengthTargets[symbol]);
+    approach(second, kLengthTargets[symbol]);
     return symbol;
   }
 
   uint32_t codeSymbol(Distribution& habit, uint32_t symbol) {
     symbol = port_.symbol(values::Parts(habit), symbol);
-    approach(habit, kTargets[symbol]);
+    approach(habit, kLengthTargets[symbol]);
     return symbol;
   }
 

@@ -7,6 +7,7 @@
 #include "gltf_ext/draco_planes.h"
 #include "gltf_ext/guard.h"
 #include "gltf_ext/numeral_attributes.h"
+#include "gltf_ext/site_layouts.h"
 #include "gltf_ext/value_planes.h"
 
 namespace tutte {
@@ -147,10 +148,11 @@ Outcome<Stream> encodeStream(const AttributeTopology& topology, std::span<const 
 }
 
 bool decodeStream(const AttributeTopology& topology, ByteReader& in, Head& head) {
-  if (!decodeNumeralAttributes(topology, head.codings, in, head.attributes, head.numeral_sizes)) return false;
+  SiteLayouts layouts(topology);
+  if (!decodeNumeralAttributes(topology, layouts, head.codings, in, head.attributes, head.numeral_sizes)) return false;
   const std::span<const uint8_t> bytes = in.take(in.remaining());
   return head.coder == kDracoCoder ? decodePlanes(topology, bytes, head.planes)
-                                   : decodeValuePlanes(topology, bytes, head.planes);
+                                   : decodeValuePlanes(topology, layouts, bytes, head.planes);
 }
 
 uint32_t headBytes(const Attribute& attribute, const AttributeCoding& coding) {

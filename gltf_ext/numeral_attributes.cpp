@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "gltf_ext/attribute_words.h"
-#include "gltf_ext/site_layouts.h"
 
 namespace tutte {
 namespace {
@@ -45,10 +44,10 @@ Outcome<std::vector<uint8_t>> encodeAt(const SiteLayout& layout, const Attribute
 void spreadFloats(std::span<const uint32_t> floats, const WedgeSites& wedges, Attribute& attribute) {
   const size_t components = attribute.components;
   attribute.data.resize(wedgeCount(wedges) * attribute.stride());
-  for (size_t w = 0; w < wedgeCount(wedges); ++w) {
-    for (size_t c = 0; c < components; ++c) {
-      storeFourBytes(&attribute.data[w * attribute.stride() + 4 * c], floats[siteOf(wedges, w) * components + c]);
-    }
+  uint8_t* target = attribute.data.data();
+  for (size_t w = 0; w < wedgeCount(wedges); ++w, target += attribute.stride()) {
+    const uint32_t* const source = &floats[siteOf(wedges, w) * components];
+    for (size_t c = 0; c < components; ++c) storeFourBytes(target + 4 * c, source[c]);
   }
 }
 
@@ -76,12 +75,12 @@ Outcome<std::vector<uint8_t>> encodeNumeralAttribute(const AttributeTopology& to
   return encodeAt(layouts.get(index), attribute, format);
 }
 
-bool decodeNumeralAttributes(const AttributeTopology& topology, std::span<const AttributeCoding> codings,
-                             ByteReader& in, std::span<Attribute> attributes, std::vector<uint32_t>& sizes) {
+bool decodeNumeralAttributes(const AttributeTopology& topology, SiteLayouts& layouts,
+                             std::span<const AttributeCoding> codings, ByteReader& in, std::span<Attribute> attributes,
+                             std::vector<uint32_t>& sizes) {
   sizes.assign(attributes.size(), 0);
   if (!anyNumerals(codings)) return true;
   if (!isConsistent(topology)) return false;
-  SiteLayouts layouts(topology);
   for (size_t i = 0; i < attributes.size(); ++i) {
     if (codings[i].kind != CodingKind::kNumerals) continue;
     SiteLayout& layout = layouts.get(i);

@@ -8,6 +8,7 @@
 #include "codec/bytes.h"
 #include "gltf_ext/attribute_coding.h"
 #include "gltf_ext/attributes.h"
+#include "gltf_ext/site_layouts.h"
 
 namespace tutte {
 
@@ -21,9 +22,10 @@ Outcome<std::vector<uint8_t>> encodeNumeralAttribute(const AttributeTopology& to
                                                      size_t index, const NumeralFormat& format);
 
 /// Reads them and fills in their data; sizes[i] becomes what attribute i took of the bytes, 0 for those with another
-/// coding. Any bytes may be passed; false when they are no such streams. Takes memory in proportion to the wedges and
-/// corners.
-bool decodeNumeralAttributes(const AttributeTopology& topology, std::span<const AttributeCoding> codings,
-                             ByteReader& in, std::span<Attribute> attributes, std::vector<uint32_t>& sizes);
+/// coding. `layouts` are the topology's. Any bytes may be passed; false when they are no such streams. Takes memory in
+/// proportion to the wedges and corners.
+bool decodeNumeralAttributes(const AttributeTopology& topology, SiteLayouts& layouts,
+                             std::span<const AttributeCoding> codings, ByteReader& in, std::span<Attribute> attributes,
+                             std::vector<uint32_t>& sizes);
 
 }  // namespace tutte

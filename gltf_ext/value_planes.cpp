@@ -6,8 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "gltf_ext/site_layouts.h"
-
 namespace tutte {
 namespace {
 
@@ -255,10 +253,10 @@ Outcome<std::vector<uint8_t>> encodeValuePlanes(const AttributeTopology& topolog
   return std::move(out).take();
 }
 
-bool decodeValuePlanes(const AttributeTopology& topology, std::span<const uint8_t> bytes, std::span<Plane> planes) {
+bool decodeValuePlanes(const AttributeTopology& topology, SiteLayouts& layouts, std::span<const uint8_t> bytes,
+                       std::span<Plane> planes) {
   if (!isConsistent(topology)) return false;
   if (topology.wedge_count == 0) return bytes.empty();
-  SiteLayouts layouts(topology);
   std::vector<int32_t> scratch;
   ByteReader in(bytes);
   for (size_t i = 0; i < planes.size(); ++i) {

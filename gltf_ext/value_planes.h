@@ -8,6 +8,7 @@
 #include "codec/values.h"
 #include "gltf_ext/attribute_coding.h"
 #include "gltf_ext/attributes.h"
+#include "gltf_ext/site_layouts.h"
 
 namespace tutte {
 
@@ -17,8 +18,9 @@ namespace tutte {
 Outcome<std::vector<uint8_t>> encodeValuePlanes(const AttributeTopology& topology, std::span<const Plane> planes,
                                                 ValueProfile profile);
 
-/// Fills the planes' values. Any bytes may be passed; false when they are no such stream. Takes memory in proportion
-/// to planes * wedges and corners.
-bool decodeValuePlanes(const AttributeTopology& topology, std::span<const uint8_t> bytes, std::span<Plane> planes);
+/// Fills the planes' values. `layouts` are the topology's. Any bytes may be passed; false when they are no such stream.
+/// Takes memory in proportion to planes * wedges and corners.
+bool decodeValuePlanes(const AttributeTopology& topology, SiteLayouts& layouts, std::span<const uint8_t> bytes,
+                       std::span<Plane> planes);
 
 }  // namespace tutte
