@@ -31,35 +31,41 @@ class JoinCandidates {
     findFirstCorners(mesh.twins, mesh.umbrellas, firsts_);
   }
 
-  /// Looks around an umbrella; all before it are known. O(1).
-  void gather(Index umbrella) {
-    found_ = 0;
-    lone_ = isLone(firsts_[umbrella]);
-    if (!suggested_[umbrella] && !lone_) return;
-    const Ring<kMostNeighbors> neighbors(*this, umbrella, umbrella);
-    for (const Index neighbor : neighbors) {
-      if (vertexOf(neighbor).umbrellas > 1) look(umbrella, neighbor);
-    }
-    if (found_ == 0 && !lone_) return;
-    for (const Index neighbor : neighbors) settle(mesh_.vertices[neighbor]);
-    // They are few.
-    for (int i = 1; i < found_; ++i) {
-      for (int j = i; j > 0 && isLikelier(candidates_[j], candidates_[j - 1]); --j) {
-        std::swap(candidates_[j], candidates_[j - 1]);
-      }
+  /// Comes to an umbrella; all before it are known. O(1).
+  void enter(Index umbrella) {
+    umbrella_ = umbrella;
+    taken_ = found_ = 0;
+    const Index first = firsts_[umbrella];
+    lone_ = isLone(first);
+    if (lone_) {
+      enterLone(first);
+    } else {
+      evidence_ = suggested_[umbrella] ? lookAround() : 0;
     }
   }
 
-  int count() const { return std::min(found_, kMostRanks); }
-  Index vertex(int rank) const { return candidates_[rank].vertex; }
-
   /// 0: no candidate; 1: one neighbour suggests the likeliest; 2: several do;
-  /// 3: its face may be alone.
-  int evidence() const { return found_ == 0 ? 0 : lone_ ? 3 : candidates_[0].votes == 1 ? 1 : 2; }
+  /// 3: its face may be alone, and a neighbour is known.
+  int evidence() const { return evidence_; }
+
+  /// The likeliest candidate that was not taken yet; kNone: there is none. Nothing but a face that is alone visits a
+  /// vertex twice, and such a face does so more often than not: its vertices come first, and only then is looked
+  /// around.
+  Index take() {
+    if (taken_ == found_ && lone_ && found_ == beside_) lookAround();
+    if (taken_ == found_) return kNone;
+    int best = taken_;
+    for (int i = taken_ + 1; i < found_; ++i) {
+      if (isLikelier(candidates_[i], candidates_[best])) best = i;
+    }
+    std::rotate(&candidates_[taken_], &candidates_[best], &candidates_[best] + 1);
+    return candidates_[taken_++].vertex;
+  }
 
   /// No neighbour comes before it.
-  bool starts(Index umbrella) const {
-    const Ring<1> neighbors(*this, umbrella, umbrella);
+  bool starts() const {
+    if (lone_) return evidence_ == 0;
+    const Ring<1> neighbors(*this, umbrella_, umbrella_);
     return neighbors.begin() == neighbors.end();
   }
 
@@ -78,7 +84,7 @@ class JoinCandidates {
 
  private:
   static constexpr size_t kMostNeighbors = 8, kMostRing = 12;
-  static constexpr int kMostSteps = 32, kMostSiblings = 3, kMostCandidates = 16, kOwn = 100;
+  static constexpr int kMostSteps = 32, kMostSiblings = 3, kMostVoted = 16;
 
   struct Candidate {
     Index vertex;
@@ -139,12 +145,40 @@ class JoinCandidates {
     goRound(umbrella, [&](Index neighbor) { return suggested_[neighbor] = 1; });
   }
 
+  // Two neighbours, whose vertices are candidates before anybody votes.
+  void enterLone(Index first) {
+    for (const Index neighbor : {mesh_.umbrellas[ways_.next(first)], mesh_.umbrellas[ways_.prev(first)]}) {
+      if (neighbor < umbrella_ && (found_ == 0 || candidates_[0].vertex != mesh_.vertices[neighbor])) put(neighbor);
+    }
+    beside_ = found_;
+    evidence_ = found_ == 0 ? 0 : 3;
+  }
+
+  void put(Index neighbor) { candidates_[found_++] = {mesh_.vertices[neighbor], 0}; }
+
+  // The other umbrellas of the neighbours' vertices vote with their own neighbours. The vertices of an umbrella's own
+  // neighbours are taken. Returns the evidence.
+  int lookAround() {
+    const Ring<kMostNeighbors> neighbors(*this, umbrella_, umbrella_);
+    if (std::ranges::none_of(neighbors, [&](Index neighbor) { return vertexOf(neighbor).umbrellas > 1; })) return 0;
+    if (!lone_) {
+      for (const Index neighbor : neighbors) put(neighbor);
+      beside_ = taken_ = found_;
+    }
+    for (const Index neighbor : neighbors) {
+      if (vertexOf(neighbor).umbrellas > 1) look(neighbor);
+    }
+    int votes = 0;
+    for (int i = taken_; i < found_; ++i) votes = std::max(votes, candidates_[i].votes);
+    return std::min(votes, 2);
+  }
+
   // The neighbours of the other umbrellas of a neighbour's vertex.
-  void look(Index umbrella, Index neighbor) {
+  void look(Index neighbor) {
     Index sibling = vertexOf(neighbor).last;
     for (int i = 0; i < kMostSiblings && sibling != kNone; ++i, sibling = sibling_[sibling]) {
       if (sibling == neighbor) continue;
-      for (const Index far : Ring<kMostRing>(*this, sibling, umbrella)) vote(mesh_.vertices[far]);
+      for (const Index far : Ring<kMostRing>(*this, sibling, umbrella_)) vote(mesh_.vertices[far]);
     }
   }
 
@@ -154,15 +188,7 @@ class JoinCandidates {
       ++candidates_[i].votes;
       return;
     }
-    if (found_ < kMostCandidates) candidates_[found_++] = {vertex, 1};
-  }
-
-  // A face hardly ever visits a vertex twice, and if it does, it is alone.
-  void settle(Index vertex) {
-    const auto end = std::remove_if(candidates_.begin(), candidates_.begin() + found_,
-                                    [&](const Candidate& candidate) { return candidate.vertex == vertex; });
-    found_ = static_cast<int>(end - candidates_.begin());
-    if (lone_ && found_ < kMostCandidates) candidates_[found_++] = {vertex, kOwn};
+    if (found_ < beside_ + kMostVoted) candidates_[found_++] = {vertex, 1};
   }
 
   const Connectivity& mesh_;
@@ -171,8 +197,11 @@ class JoinCandidates {
   std::vector<uint8_t> suggested_;  // per umbrella: a neighbour shares its vertex
   const std::unique_ptr<Vertex[]> vertices_;
   const std::unique_ptr<Index[]> sibling_;  // per umbrella: the one before it at its vertex
-  std::array<Candidate, kMostCandidates> candidates_;
-  int found_ = 0;
+  // Of the umbrella that was entered: its neighbours' vertices, and those that were voted for.
+  std::array<Candidate, kMostNeighbors + kMostVoted> candidates_;
+  int beside_ = 0, taken_ = 0, found_ = 0;
+  int evidence_ = 0;
+  Index umbrella_ = 0;
   bool lone_ = false;
 };
 
@@ -189,13 +218,13 @@ class JoinCoder {
     mesh_.vertices.resize(mesh_.umbrella_count);
     for (Index u = 0; u < mesh_.umbrella_count; ++u) {
       const Index truth = truth_.empty() ? 0 : truth_[u];
-      candidates_.gather(u);
+      candidates_.enter(u);
       const bool joined = count_ != 0 && isJoined(u).code(port_, truth != count_);
-      const Index vertex = joined ? codeVertex(u, truth) : count_++;
+      const Index vertex = joined ? codeVertex(truth) : count_++;
       if (vertex >= count_) return Error::kMalformed;
       mesh_.vertices[u] = vertex;
       candidates_.learn(u, joined);
-      if (joined) expect(u, vertex);
+      if (joined) expect(vertex);
       joined_before_ = joined;
     }
     mesh_.vertex_count = count_;
@@ -209,17 +238,18 @@ class JoinCoder {
   }
 
   // References run on from the last one; those of components, from the last component's.
-  void expect(Index umbrella, Index vertex) {
+  void expect(Index vertex) {
     expected_ = vertex + 1;
-    if (candidates_.starts(umbrella)) expected_start_ = vertex;
+    if (candidates_.starts()) expected_start_ = vertex;
   }
 
-  Index codeVertex(Index umbrella, Index truth) {
-    const int evidence = candidates_.evidence();
-    for (int rank = 0; rank < candidates_.count(); ++rank) {
-      if (hits_[evidence][rank].code(port_, truth == candidates_.vertex(rank))) return candidates_.vertex(rank);
+  Index codeVertex(Index truth) {
+    for (Bit& hit : hits_[candidates_.evidence()]) {
+      const Index vertex = candidates_.take();
+      if (vertex == kNone) break;
+      if (hit.code(port_, truth == vertex)) return vertex;
     }
-    return codeFar(candidates_.starts(umbrella), truth);
+    return codeFar(candidates_.starts(), truth);
   }
 
   Index codeFar(bool starts, Index truth) {
