@@ -13,24 +13,27 @@
 
 namespace tutte {
 
-/// What is known of an edge-end.
+/// What is known of an edge-end. The lower two bits are what is shown of it to contexts: 0 for nothing.
 enum EndState : uint8_t {
-  kNoEnd = 0,   ///< nothing, or there is no end, but a boundary
+  kAsked = 0,   ///< it is to be coded
   kJoined = 1,  ///< the two corners are alike
   kParted = 2,  ///< they differ
+  kNoEnd = 4,   ///< nothing is coded: a boundary, or the corners are known to be alike
 };
 
-/// The states of all ends of a mesh, and which of them are asked for.
+/// The states of all ends of a mesh.
 class EdgeEnds {
  public:
-  /// `states`: per corner its EndState; those that are parted are given. `candidates`: empty, or per corner kParted
-  /// where it may become parted. Ways and candidates must outlive it.
-  EdgeEnds(const UmbrellaWays& ways, std::vector<uint8_t> states, std::span<const uint8_t> candidates = {})
-      : ways_(ways), states_(std::move(states)), candidates_(candidates), edges_(states_.size()) {}
+  static constexpr uint8_t kShown = 3;
+
+  /// `states`: per corner its EndState; those that are parted are given. Ways must outlive it.
+  EdgeEnds(const UmbrellaWays& ways, std::vector<uint8_t> states)
+      : ways_(ways), states_(std::move(states)), edges_(states_.size()) {}
 
   const UmbrellaWays& ways() const { return ways_; }
   Index count() const { return static_cast<Index>(states_.size()); }
   uint8_t state(Index end) const { return states_[end]; }
+  uint8_t shown(Index end) const { return states_[end] & kShown; }
   std::vector<uint8_t> takeStates() && { return std::move(states_); }
 
   /// Of the edge of an end: the larger one of the states of both, without those that were given.
@@ -42,10 +45,7 @@ class EdgeEnds {
     edges_[end] = edges_[twin] = std::max<uint8_t>(edges_[end], state);
   }
 
-  /// Is it to be coded whether it is parted?
-  bool isAsked(Index end) const {
-    return states_[end] == kNoEnd && ways_.twin(end) != kNone && (candidates_.empty() || candidates_[end] == kParted);
-  }
+  bool isAsked(Index end) const { return states_[end] == kAsked; }
 
   /// An end of the umbrella is.
   bool isAnyAsked(Index umbrella) const {
@@ -61,7 +61,6 @@ class EdgeEnds {
  private:
   const UmbrellaWays& ways_;
   std::vector<uint8_t> states_;
-  std::span<const uint8_t> candidates_;
   std::vector<uint8_t> edges_;
 };
 
@@ -80,54 +79,45 @@ struct EndRing {
   Index end() const { return first + count; }
 };
 
-/// The rings of touched umbrellas, with the states of their ends side by side.
+/// The rings of touched umbrellas.
 class EndRings {
  public:
-  static constexpr Index kReach = 3;  ///< so far the states beside a ring's are its own again, or kNoEnd if it is open
-
   explicit EndRings(EdgeEnds& ends)
       : ends_(ends),
         numbers_(ends.ways().mesh().umbrella_count),
-        places_(std::make_unique_for_overwrite<Index[]>(ends.count())),
-        corners_(kReach),
-        states_(kReach) {}
+        corners_(std::make_unique_for_overwrite<Index[]>(ends.count())) {}
 
-  /// The ring of an umbrella.
+  /// The ring of an umbrella, which has none yet.
   EndRing& add(Index umbrella) {
     EndRing ring;
     ring.umbrella = umbrella;
-    ring.first = static_cast<Index>(corners_.size());
+    ring.first = count_;
+    Index* corner_at = &corners_[count_];
+    uint8_t parted = 0;
     ends_.ways().goRound(umbrella, [&](Index corner) {
       const uint8_t state = ends_.state(corner);
-      ring.left += ends_.isAsked(corner);
-      if (state == kParted) ring.parted = 2;
-      places_[corner] = static_cast<Index>(corners_.size());
-      corners_.push_back(corner);
-      states_.push_back(state);
+      ring.left += state == kAsked;
+      parted |= state & kParted;
+      *corner_at++ = corner;
     });
-    ring.count = static_cast<Index>(corners_.size()) - ring.first;
+    count_ = static_cast<Index>(corner_at - corners_.get());
+    ring.count = count_ - ring.first;
     ring.closed = ends_.ways().twin(corners_[ring.first]) != kNone;
-    if (ring.closed && ring.parted == 0) ring.required = 2;
-    for (Index i = 0; i < kBeside; ++i) {
-      corners_.push_back(kNone);
-      states_.push_back(kNoEnd);
-    }
-    if (ring.parted != 0) {
-      for (Index at = ring.first; at < ring.end(); ++at) show(ring, at, states_[at]);
-    }
+    ring.parted = parted;
+    if (ring.closed && parted == 0) ring.required = 2;
     rings_.push_back(ring);
     numbers_[umbrella] = static_cast<Index>(rings_.size());
     return rings_.back();
   }
 
-  /// Says what an asked end is.
-  void set(EndRing& ring, Index place, bool parted) {
-    ring.parted = static_cast<uint8_t>(std::min(ring.parted + parted, 2));
-    ring.required = static_cast<uint8_t>(ring.required - (ring.required > 0 && parted));
+  /// Says what an asked end of the ring is.
+  void set(EndRing& ring, Index end, bool parted) {
     --ring.left;
-    const EndState state = parted ? kParted : kJoined;
-    ends_.set(corners_[place], state);
-    show(ring, place, state);
+    if (parted) {
+      ring.parted = static_cast<uint8_t>(std::min(ring.parted + 1, 2));
+      ring.required = static_cast<uint8_t>(ring.required - (ring.required > 0));
+    }
+    ends_.set(end, parted ? kParted : kJoined);
   }
 
   bool isTouched(Index umbrella) const { return numbers_[umbrella] != 0; }
@@ -136,29 +126,33 @@ class EndRings {
   std::span<EndRing> rings() { return rings_; }
   std::span<const EndRing> rings() const { return rings_; }
 
-  Index placeCount() const { return static_cast<Index>(corners_.size()); }
-  /// Of a corner of a touched umbrella.
-  Index place(Index corner) const { return places_[corner]; }
+  Index placeCount() const { return count_; }
   Index corner(Index place) const { return corners_[place]; }
-  /// kReach of them may be looked at before and after it.
-  const uint8_t* states(Index place) const { return &states_[place]; }
-
- private:
-  static constexpr Index kBeside = 2 * kReach;  ///< places between rings
-
-  void show(const EndRing& ring, Index place, uint8_t state) {
-    states_[place] = state;
-    if (!ring.closed) return;
-    for (Index at = place + ring.count; at < ring.end() + kReach; at += ring.count) states_[at] = state;
-    for (Index at = place; at + kReach >= ring.first + ring.count; at -= ring.count) states_[at - ring.count] = state;
+  bool isParted(Index place) const { return ends_.state(corners_[place]) == kParted; }
+  /// Of one of a ring's corners. O(valence).
+  Index place(const EndRing& ring, Index corner) const {
+    Index place = ring.first;
+    while (place + 1 < ring.end() && corners_[place] != corner) ++place;
+    return place;
   }
 
+  /// Of the end so many places on in its ring, no more than twice the way round: what is shown of it. Nothing beyond
+  /// either end of an open ring, and of an end that has the ring for itself.
+  [[gnu::always_inline]] uint32_t shown(const EndRing& ring, Index place, int steps) const {
+    Index at = place + static_cast<Index>(steps);
+    if (at - ring.first >= ring.count) {
+      if (!ring.closed || ring.count == 1) return 0;
+      at = steps < 0 ? at + ring.count : at - ring.count;
+    }
+    return ends_.shown(corners_[at]);
+  }
+
+ private:
   EdgeEnds& ends_;
   std::vector<Index> numbers_;  // per umbrella: of its ring, from 1 on; 0: not touched
-  const std::unique_ptr<Index[]> places_;
   std::vector<EndRing> rings_;
-  std::vector<Index> corners_;
-  std::vector<uint8_t> states_;
+  const std::unique_ptr<Index[]> corners_;  // ring by ring
+  Index count_ = 0;                         // of corners so far
 };
 
 }  // namespace tutte

@@ -5,18 +5,15 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "codec/edge_ends.h"
+#include "codec/gated_flag.h"
 #include "codec/mesh.h"
-#include "codec/mixed_flag.h"
-#include "codec/sure_run.h"
 
 namespace tutte {
 
 /// Codes which ends of touched umbrellas are parted: umbrella by umbrella its own ends, then the other ends of its
-/// edges. Around a closed umbrella there cannot be exactly one. Where the ends beside it have long told what an end is,
-/// nothing else is looked at.
+/// edges. Around a closed umbrella there cannot be exactly one.
 template <class Port>
 class EndFlags {
  public:
@@ -26,52 +23,39 @@ class EndFlags {
 
   void code() {
     for (EndRing& ring : rings_.rings()) {
-      for (Index place = ring.first; place < ring.end(); ++place) {
+      for (Index place = ring.first; ring.left != 0 && place < ring.end(); ++place) {
         const Index end = rings_.corner(place);
-        if (ends_.isAsked(end)) code(ring, place, end);
+        if (ends_.isAsked(end)) code(ring, end, ways_.twin(end));
       }
       for (Index place = ring.first; place < ring.end(); ++place) {
-        const Index end = ways_.twin(rings_.corner(place));
-        EndRing* const other = end == kNone ? nullptr : rings_.find(ways_.umbrella(end));
-        if (other && ends_.isAsked(end)) code(*other, rings_.place(end), end);
+        const Index near = rings_.corner(place), end = ways_.twin(near);
+        if (end == kNone || !ends_.isAsked(end)) continue;
+        EndRing* const other = rings_.find(ways_.umbrella(end));
+        if (other) code(*other, end, near);
       }
     }
   }
 
  private:
-  void code(EndRing& ring, Index place, Index end) {
-    const bool parted = ring.left == ring.required || decide(ring, place, end);
-    rings_.set(ring, place, parted);
-    history_ = (history_ * 2 + parted) % kHistories;
+  /// `far`: the other end of the edge.
+  void code(EndRing& ring, Index end, Index far) {
+    rings_.set(ring, end, ring.left == ring.required || decide(ring, end, far));
   }
 
-  bool decide(const EndRing& ring, Index place, Index end) {
-    static constexpr std::array<uint8_t, 2 * EndRings::kReach + 1> kNothing{};
-    const Index far = ways_.twin(end);
+  bool decide(const EndRing& ring, Index end, Index far) {
     const EndRing* const far_ring = rings_.find(ways_.umbrella(far));
-    const uint8_t* const here = rings_.states(place);
-    const uint8_t* const there = far_ring ? rings_.states(rings_.place(far)) : &kNothing[EndRings::kReach];
-    const uint32_t seen = (there[0] * 3u + ring.parted) * 4 + (far_ring ? far_ring->parted : 3);
-    const uint32_t nearest = around(here) * kSeen + seen;
-    const bool truth = Port::kWriting && truth_[end];
-    Run& run = runs_[nearest];
-    if (run.isSure()) return run.code(port_, truth);
-    const uint32_t straight = ring.closed && ring.count == 4 ? here[2] : 0;
-    const uint32_t far_left = far_ring ? std::min(far_ring->left, 7u) : 0;
-    const bool parted =
-        flags_.code(port_,
-                    {nearest, ((straight * 3 + here[-3]) * 3 + here[3]) * kSeen + seen,
-                     ((std::min(ring.left, 8u) - 1) * 8 + far_left) * kSeen + seen, around(there) * kSeen + seen,
-                     ((facing(end) * 3 + facing(far)) * kHistories + history_) * kSeen + seen,
-                     (beside(end) * 9 + beside(far)) * kSeen + seen},
-                    there[0], truth);
-    run.note(parted);
-    return parted;
-  }
-
-  /// The two ends on either side of one.
-  static uint32_t around(const uint8_t* states) {
-    return ((states[-1] * 3u + states[1]) * 3 + states[-2]) * 3 + states[2];
+    const uint32_t there = far_ring ? ends_.shown(far) : 0;
+    const uint32_t seen = (there * 3 + ring.parted) * 4 + (far_ring ? far_ring->parted : 3);
+    const auto contexts = [&]() -> std::array<uint32_t, 5> {
+      const Index place = rings_.place(ring, end);
+      const auto shown = [&](int steps) { return rings_.shown(ring, place, steps); };
+      const uint32_t room = (std::min(ring.left, 4u) - 1) * 8 + (far_ring ? std::min(far_ring->left, 7u) : 0);
+      const uint32_t opposite = ring.closed && ring.count >= 4 ? shown(ring.count < 6 ? 2 : 3) : 0;
+      return {(((shown(-1) * 3 + shown(1)) * 3 + shown(-2)) * 3 + shown(2)) * kSeen + seen, room * kSeen + seen,
+              (facing(end) * 3 + facing(far)) * kSeen + seen, (beside(end) * 9 + beside(far)) * kSeen + seen,
+              ((std::min(ring.count, 9u) * 3 + opposite) * 3 + ring.required) * kSeen + seen};
+    };
+    return flags_.code(port_, seen, contexts, there, Port::kWriting && truth_[end]);
   }
 
   /// The edges after and before this one in its face.
@@ -80,17 +64,14 @@ class EndFlags {
   /// The edge at the other side of a quad.
   uint32_t facing(Index end) const { return ways_.degree(end) == 4 ? ends_.edge(ways_.next(ways_.next(end))) : 0; }
 
-  using Run = SteadyRun<48, 4>;
-  static constexpr uint32_t kHistories = 16, kSeen = 36;
+  static constexpr uint32_t kSeen = 36;
 
   Port& port_;
   EdgeEnds& ends_;
   const UmbrellaWays& ways_;
   EndRings& rings_;
   const std::span<const uint8_t> truth_;
-  uint32_t history_ = 0;  ///< the last flags
-  std::vector<Run> runs_ = std::vector<Run>(81 * kSeen);
-  MixedFlag<6> flags_{{81 * kSeen, 27 * kSeen, 64 * kSeen, 81 * kSeen, 9 * kHistories* kSeen, 81 * kSeen}, 3};
+  GatedFlag<5> flags_{kSeen, {81 * kSeen, 32 * kSeen, 9 * kSeen, 81 * kSeen, 90 * kSeen}, 3};
 };
 
 }  // namespace tutte

@@ -81,13 +81,13 @@ class FaceWays {
   }
 
   Index next(Index corner) const {
-    if (shapes_.empty()) return TriangleFaces{}.next(corner);
+    if (!shapes_.data()) return TriangleFaces{}.next(corner);
     const Index next = AnyFaces{shapes_.data()}.next(corner);
     return next == corner ? acrossLarge(corner) : next;
   }
 
   Index prev(Index corner) const {
-    if (shapes_.empty()) return TriangleFaces{}.prev(corner);
+    if (!shapes_.data()) return TriangleFaces{}.prev(corner);
     const Index prev = AnyFaces{shapes_.data()}.prev(corner);
     return prev == corner ? acrossLarge(corner) : prev;
   }
@@ -97,7 +97,7 @@ class FaceWays {
   bool hasLarge() const { return !large_.empty(); }
 
   /// At most 255.
-  Index degree(Index corner) const { return shapes_.empty() ? 3 : AnyFaces{shapes_.data()}.degree(corner); }
+  Index degree(Index corner) const { return !shapes_.data() ? 3 : AnyFaces{shapes_.data()}.degree(corner); }
 
  private:
   // From an end of a large face to the other.
@@ -112,7 +112,7 @@ class FaceWays {
     Index first, last;
   };
 
-  std::vector<uint32_t> shapes_;  // empty: triangles
+  std::vector<uint32_t> shapes_;  // empty, and null: triangles
   std::vector<Ends> large_;
 };
 

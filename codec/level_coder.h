@@ -61,7 +61,11 @@ class LevelCoder {
   // Where a level differs, the next one does, too.
   std::vector<uint8_t> givenEnds(const Level& whole) const {
     std::vector<uint8_t> ends(whole.of_corner.size());
-    for (size_t c = 0; c < whole.ends.size(); ++c) ends[c] = whole.ends[c] == kParted ? kParted : kNoEnd;
+    std::ranges::transform(ways_.mesh().twins, ends.begin(),
+                           [](Index twin) { return twin == kNone ? kNoEnd : kAsked; });
+    for (size_t c = 0; c < whole.ends.size(); ++c) {
+      if (whole.ends[c] == kParted) ends[c] = kParted;
+    }
     return ends;
   }
 

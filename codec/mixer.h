@@ -85,6 +85,13 @@ class LearningRate {
   int64_t rate_ = 0;
 };
 
+/// What a decision's probability lacked, in 1/65536: is it worth learning from? Nothing is learned from what was as
+/// good as certain: that takes fewer bytes than learning from all, and less time.
+inline bool isLarge(int32_t error) {
+  constexpr int32_t kLeast = 1024;
+  return static_cast<uint32_t>(error + (kLeast - 1)) > 2 * (kLeast - 1);
+}
+
 /// A final correction: maps (decision, mixed probability) to what was seen there, between 33 points per decision.
 template <int kDecisions>
 class FinalMap {

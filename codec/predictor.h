@@ -190,13 +190,6 @@ class Predictor {
     ((kFirst + i < kUsed ? slotOf<kFirst + i>(node, match).setWord(words[i]) : void()), ...);
   }
 
-  // Nothing is learned from what was as good as certain: that takes fewer bytes than learning from all, and less time.
-  // `error`: what the probability of a 1 lacked, in 1/65536.
-  static bool isLarge(int32_t error) {
-    constexpr int32_t kLeast = 1024;
-    return static_cast<uint32_t>(error + (kLeast - 1)) > 2 * (kLeast - 1);
-  }
-
   // Returns the error: above 0 if the decision is a 1, else below.
   template <class Port>
   [[gnu::always_inline]] int32_t decide(Port& port, Selectors selectors, const Inputs<kInputs>& inputs,

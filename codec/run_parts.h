@@ -33,7 +33,7 @@ class RunParts {
     const Index row_end = rowEnd(rings, ring);
     Run first, before;
     for (Index begin = ring.first, end; begin < row_end; begin = end) {
-      for (end = begin + 1; end < row_end && *rings.states(end) != kParted;) ++end;
+      for (end = begin + 1; end < row_end && !rings.isParted(end);) ++end;
       const Index corner = rings.corner(begin), whole = wholes_[corner];
       const bool closes = ring.closed && end == row_end;
       const Barred barred(before.partIn(whole), closes ? first.partIn(whole) : kNone);
@@ -82,10 +82,10 @@ class RunParts {
 
   /// Where the last run of a ring's row ends; what is behind it belongs to the first one, as the ring is closed.
   static Index rowEnd(const EndRings& rings, const EndRing& ring) {
-    if (!ring.closed || *rings.states(ring.first) == kParted) return ring.end();
+    if (!ring.closed || rings.isParted(ring.first)) return ring.end();
     Index end = ring.end();
     while (--end > ring.first) {
-      if (*rings.states(end) == kParted) return end;
+      if (rings.isParted(end)) return end;
     }
     return ring.end();
   }

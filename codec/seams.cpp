@@ -53,7 +53,9 @@ Level firstLevel(const Connectivity& mesh) {
 template <class Port>
 std::vector<uint8_t> codeAttributeEnds(Port& port, const UmbrellaWays& ways, const Level& level,
                                        std::span<const uint8_t> truth = {}) {
-  EdgeEnds ends(ways, std::vector<uint8_t>(level.ends.size()), level.ends);
+  std::vector<uint8_t> states(level.ends.size());
+  std::ranges::transform(level.ends, states.begin(), [](uint8_t end) { return end == kParted ? kAsked : kNoEnd; });
+  EdgeEnds ends(ways, std::move(states));
   EndRings rings(ends);
   TouchFlags<Port>(port, ends, rings, truth).code(level.touched);
   EndFlags<Port>(port, ends, rings, truth).code();

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "codec/edge_ends.h"
+#include "codec/gated_flag.h"
 #include "codec/mesh.h"
-#include "codec/mixed_flag.h"
 #include "codec/model.h"
-#include "codec/sure_run.h"
 
 namespace tutte {
 
@@ -169,23 +168,19 @@ class TouchFlags {
     });
     const uint32_t touched = std::min(seen[kTouched], 3u), quiet = std::min(seen[kQuiet], 3u);
     const uint32_t unknown = std::min(seen[kUnknown], 3u), far_touched = std::min(far_seen[kTouched], 2u);
-    const uint32_t nearest = ((need * 4 + touched) * 4 + quiet) * 4 + unknown;
-    Run& run = runs_[nearest];
-    if (run.isSure()) return run.code(port_, truth);
-    uint32_t lines = 0, line = 0;  // of the neighbours' neighbours straight on: touched ones; that of the neediest
-    for (const Near& near : near_) {
-      const State straight = beyond(near.corner, near.last, umbrella);
-      lines += straight == kTouched;
-      if (near.need == need && line != kTouched) line = straight;
-    }
-    const bool flag = flags_.code(
-        port_,
-        {nearest, ((row_ * 4 + line) * 4 + need / 5) * 4 + touched,
-         (((need * 4 + line) * 3 + far_touched) * 3 + std::min(far_seen[kQuiet], 2u)) * 4 + touched,
-         ((((std::min(lines, 2u) * 4 + quiet) * 4 + touched) * 3 + far_touched) * 4 + unknown) * 4 + row_ % 4},
-        0, truth);
-    run.note(flag);
-    return flag;
+    const uint32_t gate = (touched * 4 + quiet) * 4 + unknown;
+    const auto contexts = [&]() -> std::array<uint32_t, 4> {
+      uint32_t lines = 0, line = 0;  // of the neighbours' neighbours straight on: touched ones; that of the neediest
+      for (const Near& near : near_) {
+        const State straight = beyond(near.corner, near.last, umbrella);
+        lines += straight == kTouched;
+        if (near.need == need && line != kTouched) line = straight;
+      }
+      return {need * 64 + gate, ((row_ * 4 + line) * 4 + need / 5) * 4 + touched,
+              (((need * 4 + line) * 3 + far_touched) * 3 + std::min(far_seen[kQuiet], 2u)) * 4 + touched,
+              ((((std::min(lines, 2u) * 4 + quiet) * 4 + touched) * 3 + far_touched) * 4 + unknown) * 4 + row_ % 4};
+    };
+    return flags_.code(port_, gate, contexts, 0, truth);
   }
 
   /// A touched neighbour, and a corner of it.
@@ -195,9 +190,8 @@ class TouchFlags {
     uint32_t need;
     bool last;
   };
-  using Run = SteadyRun<96, 8>;
 
-  static constexpr uint32_t kRows = 256, kNoNeed = 15;
+  static constexpr uint32_t kRows = 16, kNoNeed = 15;
 
   Port& port_;
   const EdgeEnds& ends_;
@@ -210,8 +204,7 @@ class TouchFlags {
   uint32_t row_ = 0;                // the last umbrellas, a bit each
   NumberModel gap_model_;
   std::vector<Near> near_;
-  std::vector<Run> runs_ = std::vector<Run>(16 * 64);
-  MixedFlag<4> flags_{{16 * 64, kRows * 64, 64 * 36, 3 * 16 * 48}, 1};
+  GatedFlag<4> flags_{64, {16 * 64, kRows * 64, 64 * 36, 3 * 16 * 48}, 1};
 };
 
 }  // namespace tutte

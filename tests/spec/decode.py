@@ -157,19 +157,17 @@ def neighbours_of(mesh):
 
 
 def join_candidates(u, neighbours, vertices, umbrellas_of):
-    """Vertices that umbrella u may belong to, with their votes, likeliest first."""
-    votes = {}
+    """Vertices that umbrella u may belong to, with their votes, likeliest first; None for those of its neighbours."""
     near = [w for w in neighbours[u][:32] if w < u][:8]
+    beside = list(dict.fromkeys(vertices[w] for w in near))
+    votes = {}
     for w in near:
         for x in umbrellas_of[vertices[w]][:-4:-1]:
             for y in [y for y in neighbours[x][:32] if y < u][:12] if x != w else []:
-                if vertices[y] in votes or len(votes) < 16:
+                if vertices[y] not in beside and (vertices[y] in votes or len(votes) < 16):
                     votes[vertices[y]] = votes.get(vertices[y], 0) + 1
-    for w in near:
-        votes.pop(vertices[w], None)
-        if len(neighbours[u]) == 2 and len(votes) < 16:
-            votes[vertices[w]] = 100
-    return sorted(votes.items(), key=lambda candidate: (-candidate[1], len(umbrellas_of[candidate[0]])))
+    own = [(v, None) for v in sorted(beside, key=lambda v: len(umbrellas_of[v]))] if len(neighbours[u]) == 2 else []
+    return own + sorted(votes.items(), key=lambda candidate: (-candidate[1], len(umbrellas_of[candidate[0]])))
 
 
 def read_vertices(stream, mesh, on_boundary, walk_umbrellas):

@@ -157,6 +157,23 @@ class Slot:
         self.rate = max(self.rate - (self.rate * self.rate >> 17), 257)
 
 
+class LearningRate:
+    """What a stream's weights learn at a time, by how many decisions they learned from."""
+
+    def __init__(self):
+        self.decisions = self.rate = 0
+
+    def advance(self):
+        self.decisions += 1
+        if (self.decisions - 1) % 64 == 0:
+            self.rate = 200 + 6000000 // (4000 + self.decisions)
+
+    def learn(self, weights, inputs, error):
+        step = error * self.rate >> 13
+        for i, value in enumerate(inputs):
+            weights[i] = clamp(weights[i] + (value * step + 16384 >> 15), -32768, 32767)
+
+
 class Mixer:
     """The decisions of one kind of symbol, in `contexts` contexts at once."""
 
@@ -167,7 +184,7 @@ class Mixer:
         self.weights = {}
         self.initial = [weight] * (contexts + 1)
         self.final = [[squashed(clamp(128 * i - 2048, -2047, 2047)) for i in range(33)] for _ in range(16)]
-        self.decisions = self.rate = 0
+        self.learned = LearningRate()
 
     def enter(self, keys):
         self.places = [(key * 0x9E3779B97F4A7C15 + i * 0xD1B54A32D192ED03) % 2**64 >> (60 - self.line_bits)
@@ -187,13 +204,9 @@ class Mixer:
         bit, probability = self.decide(stream, node, opinions)
         if abs((bit << 16) - probability) < 1024:
             return bit
-        self.decisions += 1
-        if (self.decisions - 1) % 64 == 0:
-            self.rate = 200 + 6000000 // (4000 + self.decisions)
+        self.learned.advance()
         for weights, opinion in zip(sets, opinions):
-            step = ((bit << 16) - squashed(opinion)) * self.rate >> 13
-            for i, value in enumerate(inputs):
-                weights[i] = clamp(weights[i] + (value * step + 16384 >> 15), -32768, 32767)
+            self.learned.learn(weights, inputs, (bit << 16) - squashed(opinion))
         for slot in {id(slot): slot for slot in slots + ([match] if match else [])}.values():
             slot.update(bit)
         return bit

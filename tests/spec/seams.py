@@ -1,8 +1,8 @@
 """A payload's head (EXTENSION_SPEC.md, Appendix A) and its section SEAMS (C.1 and C.2)."""
 import zlib
 
-from models import Bit, Number, RangeDecoder, SteadyRun, clamp, require
-from value_models import SQUASH, Chances, varint
+from models import Bit, LearningRate, Number, RangeDecoder, Slot, clamp, require, squashed
+from value_models import varint
 
 
 # Appendix A
@@ -52,20 +52,30 @@ class Payload:
 
 # C.1 Mixed decisions
 
-class MixedFlag:
+class GatedFlag:
     def __init__(self, inputs, weight_sets):
-        self.tables = [Chances() for _ in range(inputs)]
-        self.weights = [[65536 * 13 // (10 * inputs)] * inputs for _ in range(weight_sets)]
+        self.gates, self.tables = {}, [{} for _ in range(inputs)]
+        self.weights = [[16384 * 13 // (10 * inputs)] * inputs for _ in range(weight_sets)]
+        self.learned = LearningRate()
 
-    def read(self, stream, contexts, weight_set):
-        chances, weights = [table[x] for table, x in zip(self.tables, contexts)], self.weights[weight_set]
-        inputs = [chance.trusted() for chance in chances]
-        one = SQUASH[clamp(sum(t * w for t, w in zip(inputs, weights)) >> 16, -2047, 2047) + 2048]
-        bit = stream.bit(clamp(one, 24, 65512))
-        error = ((65535 if bit else 0) - one) >> 4
-        for i, value in enumerate(inputs):
-            weights[i] = clamp(weights[i] + (value * error + 512 >> 10), -2**20, 2**20)
-            chances[i].update(bit)
+    def read(self, stream, gate, contexts, weight_set):
+        slot = self.gates.setdefault(gate, Slot())
+        certain = slot.p < 4096 or slot.p > 61440
+        flag = stream.bit(slot.p) if certain else self.mix(stream, contexts, self.weights[weight_set])
+        slot.update(flag)
+        return flag
+
+    def mix(self, stream, contexts, weights):
+        slots = [table.setdefault(x, Slot()) for table, x in zip(self.tables, contexts)]
+        inputs = [slot.stretched() for slot in slots]
+        probability = squashed(clamp(sum(i * w for i, w in zip(inputs, weights)) >> 16, -2047, 2047))
+        bit = stream.bit(probability)
+        error = (bit << 16) - probability
+        if abs(error) >= 1024:
+            self.learned.advance()
+            self.learned.learn(weights, inputs, error)
+            for slot in slots:
+                slot.update(bit)
         return bit
 
 
@@ -119,9 +129,8 @@ UNKNOWN, QUIET, TOUCHED, NOWHERE = range(4)
 
 class FlagPass:
     def __init__(self, ends, candidates, given=frozenset()):
-        self.ends, self.candidates, self.history, self.row, self.gap = ends, candidates, 0, 0, None
-        self.gaps, self.touch_runs, self.touches = Number(), {}, MixedFlag(4, 1)
-        self.end_runs, self.flags = {}, MixedFlag(6, 3)
+        self.ends, self.candidates, self.row, self.gap = ends, candidates, 0, None
+        self.gaps, self.touches, self.flags = Number(), GatedFlag(4, 1), GatedFlag(5, 3)
         self.given, self.told, self.touched, self.suggested = given, {}, [], set()
         self.is_touched, self.settled = set(), set()
         self.left, self.parted, self.required = {}, {}, {}
@@ -147,7 +156,7 @@ class FlagPass:
                 self.gap = self.gaps.read(stream)
             touched = self.gap == 0
             self.gap = None if touched else self.gap - 1
-        self.row = (2 * self.row + touched) & 255
+        self.row = (2 * self.row + touched) & 15
         if not touched:
             return
         ring = self.ends.rings[u]
@@ -179,20 +188,15 @@ class FlagPass:
         need = min((n for n, _ in near), default=15)
         touched, quiet, unknown = (min(states.count(state), 3) for state in (TOUCHED, QUIET, UNKNOWN))
         far_touched, far_quiet = min(far.count(TOUCHED), 2), min(far.count(QUIET), 2)
-        nearest = ((need * 4 + touched) * 4 + quiet) * 4 + unknown
-        steady = self.touch_runs.setdefault(nearest, SteadyRun(96, 8))
-        if steady.is_sure():
-            return steady.read(stream)
         lines, line = sum(state == TOUCHED for _, state in near), 0
         for n, state in near:
             if n == need and line != TOUCHED:
                 line = state
-        flag = int(self.touches.read(stream, [
-            nearest, ((self.row * 4 + line) * 4 + need // 5) * 4 + touched,
+        gate = (touched * 4 + quiet) * 4 + unknown
+        return int(self.touches.read(stream, gate, [
+            need * 64 + gate, ((self.row * 4 + line) * 4 + need // 5) * 4 + touched,
             (((need * 4 + line) * 3 + far_touched) * 3 + far_quiet) * 4 + touched,
             ((((min(lines, 2) * 4 + quiet) * 4 + touched) * 3 + far_touched) * 4 + unknown) * 4 + self.row % 4], 0))
-        steady.note(flag)
-        return flag
 
     def read_end(self, stream, e):
         if e not in self.candidates or e in self.told or self.ends.umbrellas[e] not in self.is_touched:
@@ -203,7 +207,6 @@ class FlagPass:
         self.required[u] = max(0, self.required[u] - flag)
         self.left[u] -= 1
         self.told[e] = 1 + flag
-        self.history = (2 * self.history + flag) & 15
 
     def decide(self, stream, e, u):
         far = self.ends.twins[e]
@@ -211,19 +214,14 @@ class FlagPass:
         far_parted, far_left = (self.parted[v], self.left[v]) if v in self.is_touched else (3, 0)
         known_far = self.known(far)
         seen = (known_far * 3 + self.parted[u]) * 4 + far_parted
-        nearest = self.around(e) * 36 + seen
-        steady = self.end_runs.setdefault(nearest, SteadyRun(48, 4))
-        if steady.is_sure():
-            return steady.read(stream)
-        straight = self.known(self.step(e, 2)) if u not in self.ends.open and len(self.ends.rings[u]) == 4 else 0
-        flag = int(self.flags.read(stream, [
-            nearest, ((straight * 3 + self.known(self.step(e, -3))) * 3 + self.known(self.step(e, 3))) * 36 + seen,
-            ((min(self.left[u], 8) - 1) * 8 + min(far_left, 7)) * 36 + seen,
-            self.around(far) * 36 + seen,
-            ((self.facing(e) * 3 + self.facing(far)) * 16 + self.history) * 36 + seen,
-            (self.beside(e) * 9 + self.beside(far)) * 36 + seen], known_far))
-        steady.note(flag)
-        return flag
+        corners, required = len(self.ends.rings[u]), self.required[u]
+        opposite = 0 if u in self.ends.open or corners < 4 else self.known(self.step(e, 2 if corners < 6 else 3))
+        return int(self.flags.read(stream, seen, [
+            self.around(e) * 36 + seen,
+            ((min(self.left[u], 4) - 1) * 8 + min(far_left, 7)) * 36 + seen,
+            (self.facing(e) * 3 + self.facing(far)) * 36 + seen,
+            (self.beside(e) * 9 + self.beside(far)) * 36 + seen,
+            ((min(corners, 9) * 3 + opposite) * 3 + required) * 36 + seen], known_far))
 
     def step(self, e, count):
         """So many corners back; forwards for negative counts."""
