@@ -50,7 +50,7 @@ class Payload:
         return sections
 
 
-# C.1 Mixed decisions
+# C.1 Gated flags
 
 class GatedFlag:
     def __init__(self, inputs, weight_sets):
