@@ -37,6 +37,12 @@ class Slot {
   uint32_t word_ = 0x80007FFFu;
 };
 
+/// A cache line of slots, one for each node of a context.
+inline constexpr int kNodeBits = 4, kNodes = 1 << kNodeBits;
+struct alignas(64) Line {
+  std::array<Slot, kNodes> slot;
+};
+
 /// Eight slots' words after a decision.
 [[gnu::always_inline]] inline std::array<uint32_t, 8> updatedSlots(const std::array<uint32_t, 8>& words, bool bit) {
   const Lanes::Halves halves = Lanes::split(words);

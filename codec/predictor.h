@@ -21,12 +21,6 @@
 
 namespace tutte {
 
-inline constexpr int kNodeBits = 4, kNodes = 1 << kNodeBits;
-
-struct alignas(64) Line {
-  std::array<Slot, kNodes> slot;
-};
-
 /// What a Predictor's table lies in. It remembers which lines were used, unless they were many, so that a small mesh
 /// does not pay for clearing all of them.
 class TableMemory {
@@ -74,7 +68,7 @@ class Predictor {
  public:
   static constexpr bool kMixes = kContexts > 1;
   static constexpr int kInputs = kContexts < 8 ? 8 : 16;
-  static constexpr int kSituations = 512;
+  static constexpr int kSituations = 320;
   static constexpr int kMatchLengths = 8;
   static constexpr int kSure = kRich ? 31 : 15;
   static_assert(kContexts < 16);

@@ -19,7 +19,8 @@ Index uniformDegree(const Topology& topology) {
 
 // Enough for the mesh, few enough to be cleared in no time.
 int tableBitsFor(const Topology& topology) {
-  return std::clamp(static_cast<int>(std::bit_width(topology.valence.size())) - 4, 7, 11);
+  const int bits = static_cast<int>(std::bit_width(topology.valence.size()));
+  return std::clamp(bits - 4, std::clamp(bits - 1, 5, 7), 11);
 }
 
 class Search {

@@ -5,10 +5,10 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <memory>
 #include <utility>
 #include <vector>
 
+#include "codec/mesh.h"
 #include "codec/mixer.h"
 #include "codec/value_expectation.h"
 #include "codec/value_model.h"
@@ -20,11 +20,11 @@ class MixingCoder {
  public:
   static constexpr bool wantsAll() { return true; }
 
-  MixingCoder() : places_(kStarts[kInputs]) {
+  /// The more sites, the larger the table.
+  explicit MixingCoder(Index sites) : line_bits_(lineBitsFor(sites)), lines_(size_t{1} << line_bits_) {
     Weights<kInputs> initial;
     initial.weight.fill(kInitialWeight);
     weights_.fill(initial);
-    addLine();  // nobody's
   }
 
   template <class Port>
@@ -45,7 +45,7 @@ class MixingCoder {
   static constexpr int kInputs = 8;
   static constexpr int kLongest = 18;  // of expected lengths
   static constexpr uint32_t kLengths = kLongest + 1;
-  static constexpr int kBins = 16;  // "longer than expected?", eight steps up, seven steps down
+  static constexpr int kBins = kNodes;  // "longer than expected?", eight steps up, seven steps down
   static constexpr int kUp = 1, kDown = 9;
   static constexpr int kLongestResidual = 30;
   static constexpr int16_t kInitialWeight = 16384 * 21 / 100;
@@ -65,32 +65,19 @@ class MixingCoder {
     return static_cast<int>((about.fraction & 15) >> 1) * 3 + (about.side > 0) - (about.side < 0) + 1;
   }
 
-  using Line = std::array<Slot, kBins>;
-  static constexpr size_t kLinesTogether = 64;  // a list that grew would be there twice for a while
+  using Places = std::array<uint32_t, kInputs>;
 
-  // Of all contexts that there are, a mesh meets few: a line is made when its context is first met.
-  std::array<Line*, kInputs> linesAt(const std::array<uint32_t, kInputs>& contexts) {
-    std::array<uint16_t, kInputs> places;
-    for (size_t i = 0; i < kInputs; ++i) {
-      uint16_t& place = places_[kStarts[i] + contexts[i]];
-      if (place == 0) place = addLine();
-      places[i] = place;
-    }
-    std::array<Line*, kInputs> lines;
-    for (size_t i = 0; i < kInputs; ++i) lines[i] = &(*lines_[places[i] / kLinesTogether])[places[i] % kLinesTogether];
-    return lines;
+  // About a line per site; where there are many, a third.
+  static int lineBitsFor(Index sites) {
+    const int bits = static_cast<int>(std::bit_width(sites));
+    return std::clamp(bits - 2, std::clamp(bits, 5, 9), 12);
   }
 
-  [[gnu::noinline]] uint16_t addLine() {
-    static_assert(kStarts[kInputs] < 65536);
-    if (line_count_ % kLinesTogether == 0) lines_.push_back(std::make_unique<std::array<Line, kLinesTogether>>());
-    return static_cast<uint16_t>(line_count_++);
-  }
-
-  std::array<Line*, kInputs> linesOf(const Expectation& about, int expected) {
+  // All contexts share the slots. Bin b has the slot at a context's place XOR b.
+  Places placesOf(const Expectation& about, int expected) const {
     const int level = about.level();
     const auto rank = static_cast<uint32_t>(about.rank), e = static_cast<uint32_t>(expected);
-    const std::array<uint32_t, kInputs> contexts = {
+    Places places = {
         (static_cast<uint32_t>(level) * 3 + rank) * 4 + about.members,
         (about.relative(about.spread, level, -7, 7) * 4 + about.members) * kLengths + e,
         (about.relative(about.near, level, -5, 6) * 16 + about.relative(about.widest, level, -7, 8)) * kLengths + e,
@@ -99,42 +86,45 @@ class MixingCoder {
         (about.relative(about.apart, level, -7, 8) * 3 + rank) * kLengths + e,
         ((about.fraction & 15) * 4 + about.members) * kLengths + e,
         (last_[rank] * 3 + rank) * kLengths + e};
-    return linesAt(contexts);
+    const int shift = 32 - kNodeBits - line_bits_;
+    for (size_t i = 0; i < kInputs; ++i) places[i] = (places[i] + kStarts[i]) * 0x9E3779B1u >> shift;
+    return places;
   }
 
   template <class Port>
   int codeLength(Port& port, const Expectation& about, int expected, int length) {
-    const std::array<Line*, kInputs> lines = linesOf(about, expected);
+    const Places places = placesOf(about, expected);
     int at = expected;
-    if (decide(port, lines, about.rank, 0, length > at)) {
+    if (decide(port, places, about.rank, 0, length > at)) {
       for (int bin = kUp; ++at < kLongestResidual; bin += bin < kDown - 1) {
-        if (!decide(port, lines, about.rank, bin, length > at)) break;
+        if (!decide(port, places, about.rank, bin, length > at)) break;
       }
     } else {
       for (int bin = kDown; at > 0; --at, bin += bin < kBins - 1) {
-        if (!decide(port, lines, about.rank, bin, length < at)) break;
+        if (!decide(port, places, about.rank, bin, length < at)) break;
       }
     }
     return at;
   }
 
   template <class Port>
-  bool decide(Port& port, const std::array<Line*, kInputs>& lines, int rank, int bin, bool value) {
-    return decide(port, lines, static_cast<size_t>(rank * kBins + bin), static_cast<size_t>(bin), value,
+  bool decide(Port& port, const Places& places, int rank, int bin, bool value) {
+    return decide(port, places, static_cast<size_t>(rank * kBins + bin), static_cast<uint32_t>(bin), value,
                   std::make_index_sequence<kInputs>());
   }
 
   template <class Port, size_t... i>
-  [[gnu::always_inline]] bool decide(Port& port, const std::array<Line*, kInputs>& lines, size_t kind, size_t bin,
-                                     bool value, std::index_sequence<i...>) {
-    const Inputs<kInputs> inputs{Lanes({(*lines[i])[bin].stretched()...})};
+  [[gnu::always_inline]] bool decide(Port& port, const Places& places, size_t kind, uint32_t bin, bool value,
+                                     std::index_sequence<i...>) {
+    Slot* const slots = lines_.data()->slot.data();
+    const Inputs<kInputs> inputs{Lanes({slots[places[i] ^ bin].stretched()...})};
     Weights<kInputs>& weights = weights_[kind];
     const uint32_t mixed = squash(weights.mix(inputs));
     const bool bit = port.code(std::clamp(mixed, 24u, 65512u), value);
     rate_.advance();
     weights.learn(inputs, rate_.step((bit << 16) - static_cast<int32_t>(mixed)));
-    const auto words = updatedSlots({(*lines[i])[bin].word()...}, bit);
-    ((*lines[i])[bin].setWord(words[i]), ...);
+    const auto words = updatedSlots({slots[places[i] ^ bin].word()...}, bit);
+    (slots[places[i] ^ bin].setWord(words[i]), ...);
     return bit;
   }
 
@@ -155,9 +145,8 @@ class MixingCoder {
     return value << rest | port.bits(rest, magnitude & ((1u << rest) - 1));
   }
 
-  std::vector<uint16_t> places_;  // by context: its line; 0: none yet
-  std::vector<std::unique_ptr<std::array<Line, kLinesTogether>>> lines_;
-  size_t line_count_ = 0;
+  int line_bits_;
+  std::vector<Line> lines_;
   std::array<Weights<kInputs>, 3 * kBins> weights_;
   LearningRate rate_;
   std::array<uint32_t, 3> last_{};  // lengths, by rank

@@ -10,21 +10,23 @@
 
 namespace tutte::values {
 
-/// An adaptive probability: 22 bits of it, and how often it was used.
+/// An adaptive probability: 22 bits of how far it is from one half, and how often it was used: a new one is all zeros,
+/// as are then tables of them, which makes these quick to clear.
 class Chance {
  public:
-  explicit constexpr Chance(uint32_t one16 = 32768) : state_(one16 << 16) {}
+  constexpr Chance() = default;
+  explicit constexpr Chance(uint32_t one16) : state_(static_cast<int32_t>(one16 - 32768) * 65536) {}
 
-  uint32_t one16() const { return state_ >> 16; }
-  int32_t stretched() const { return kStretch[state_ >> 20]; }
+  uint32_t one16() const { return static_cast<uint32_t>((state_ >> 16) + 32768); }
+  int32_t stretched() const { return kStretch[static_cast<size_t>((state_ >> 20) + 2048)]; }
   int32_t trusted() const { return stretched() * kConfidence[state_ & 1023] >> 8; }
 
   void update(bool bit) {
-    const uint32_t seen = state_ & 1023;
-    const int64_t target = bit ? 0x3FFFFF - kLeast : kLeast;
-    const int64_t probability = state_ >> 10;
-    const int64_t moved = probability + ((target - probability) * kAdaptation[seen] >> 16);
-    state_ = static_cast<uint32_t>(moved) << 10 | (seen + (seen < 255));
+    const int32_t seen = state_ & 1023;
+    const int64_t target = bit ? kMost : kLeast;
+    const int64_t offset = state_ >> 10;
+    const int64_t moved = offset + ((target - offset) * kAdaptation[static_cast<size_t>(seen)] >> 16);
+    state_ = static_cast<int32_t>(moved) * 1024 + seen + (seen < 255);
   }
 
   template <class Port>
@@ -35,9 +37,10 @@ class Chance {
   }
 
  private:
-  static constexpr int64_t kLeast = 2048;  // so that one16() stays between 31 and 65504
+  // So that one16() stays between 31 and 65504.
+  static constexpr int64_t kLeast = 2048 - (1 << 21), kMost = (1 << 21) - 1 - 2048;
 
-  uint32_t state_;
+  int32_t state_ = 0;
 };
 
 /// Several chances of one decision become one, with weights that learn which of them to trust.

@@ -12,9 +12,9 @@ namespace tutte::values {
 
 class Residuals {
  public:
-  /// `mixing`: the smallest profile; otherwise by classes, with one or two contexts.
-  Residuals(bool mixing, bool two_contexts) : two_contexts_(two_contexts) {
-    mixing ? void(mixing_.emplace()) : void(classes_.emplace());
+  /// `mixing`: the smallest profile; otherwise by classes, with one or two contexts. `sites`: how many there are.
+  Residuals(bool mixing, bool two_contexts, Index sites) : two_contexts_(two_contexts) {
+    mixing ? void(mixing_.emplace(sites)) : void(classes_.emplace());
   }
 
   /// Calls visit(coder) with one of the coders, or with this, which is one, too: where a program's size counts, what

@@ -84,8 +84,8 @@ class SurroundingsFinder {
 
  private:
   static constexpr int kMostFar = 4, kMostEdges = 4;
-  static constexpr size_t kBatch = 32;          // sites
-  static constexpr size_t kBatchCorners = 192;  // their corners, but for those of the last one
+  static constexpr size_t kBatch = 16;         // sites
+  static constexpr size_t kBatchCorners = 64;  // their corners, but for those of the last one
   static constexpr size_t kCorners = ValueGraph::kMostCorners;
 
   template <class T, size_t kPerCorner>

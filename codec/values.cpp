@@ -55,7 +55,7 @@ struct Run {
   template <int C, class T, class Guide>
   Error code() {
     const bool fast = format.profile == ValueProfile::kFast;
-    values::Residuals residuals(format.profile == ValueProfile::kSmall, !fast);
+    values::Residuals residuals(format.profile == ValueProfile::kSmall, !fast, sites.graph.siteCount());
     SitePredictor<Port, C, T, Guide> predictor(
         port, sites.graph, sites.places,
         {format.components, format.max, format.kind, fast, format.echoes, format.copies, weighting}, residuals);

@@ -1,4 +1,6 @@
 """Streams and statistics of values: EXTENSION_SPEC.md, D.4.4, D.4.5 and D.4.8."""
+import math
+
 from models import Slot, clamp, require, squashed
 
 FAST, DEFAULT, SMALL = range(3)  # profiles
@@ -223,13 +225,29 @@ class Classes:
         return -residual if found & 1 else residual
 
 
+# Of each context of Lengths, how many values its features have.
+LENGTHS = ((64, 3, 4), (15, 4, 19), (12, 16, 19), (3, 4, 16, 19), (16, 3, 19), (16, 3, 19), (16, 4, 19), (16, 3, 19))
+
+
 class Lengths:
-    def __init__(self):
-        self.slots, self.weights, self.decisions, self.rate = [{} for _ in range(8)], {}, 0, 0
+    def __init__(self, sites):
+        bits = bit_length(sites)
+        self.shift = 28 - clamp(bits - 2, clamp(bits, 5, 9), 12)
+        self.slots, self.weights, self.decisions, self.rate = {}, {}, 0, 0
         self.signs, self.digits, self.last = Chances(), Chances(), [0, 0, 0]
 
-    def decide(self, stream, rank, bin_, contexts):
-        slots = [self.slots[k].setdefault((c, bin_), Slot()) for k, c in enumerate(contexts)]
+    def places(self, contexts):
+        start, places = 0, []
+        for counts, context in zip(LENGTHS, contexts):
+            number = 0
+            for count, feature in zip(counts, context):
+                number = number * count + feature
+            places.append((start + number) * 0x9E3779B1 % 2**32 >> self.shift)
+            start += math.prod(counts)
+        return places
+
+    def decide(self, stream, rank, bin_, places):
+        slots = [self.slots.setdefault(place ^ bin_, Slot()) for place in places]
         weights = self.weights.setdefault((rank, bin_), [3440] * 8)
         inputs = [slot.stretched() for slot in slots]
         opinion = squashed(clamp(sum(i * w for i, w in zip(inputs, weights)) >> 16, -2047, 2047))
@@ -240,11 +258,12 @@ class Lengths:
         step = ((bit << 16) - opinion) * self.rate >> 13
         for k, value in enumerate(inputs):
             weights[k] = clamp(weights[k] + (value * step + 16384 >> 15), -32768, 32767)
-            slots[k].update(bit)
+        for slot in {id(slot): slot for slot in slots}.values():
+            slot.update(bit)
         return bit
 
     def read(self, stream, expected, rank, contexts, sign):
-        contexts = contexts + ((self.last[rank], rank, expected),)
+        contexts = self.places(contexts + ((self.last[rank], rank, expected),))
         length = expected
         if self.decide(stream, rank, 0, contexts):
             length += 1

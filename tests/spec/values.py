@@ -24,7 +24,7 @@ class Coder:
         self.values, self.errors, self.last_picked = {}, {}, False
         self.last, self.typical = [0] * m, 64
         self.picks, self.indices, self.gains = Chances(6160), Chances(), {}
-        self.residuals = Lengths() if profile == SMALL else Classes(profile == FAST)
+        self.residuals = Lengths(graph.site_count) if profile == SMALL else Classes(profile == FAST)
         self.echoes = Echoes(self) if echoes else None
         self.copies = Copies(graph.mesh, graph.site, self.values, m == 3 and maximum < 2**20) if copies else None
         self.weighting = weighting
@@ -145,14 +145,14 @@ class Coder:
             return clamp(log4(size >> 1) - level >> 1, low, high)
 
         def relative16(size):
-            return relative(min(size, 2**25), -7, 8)
+            return relative(min(size, 2**25), -7, 8) + 7
 
         e = min(bit_length(estimate * 3 >> 6), 18)
         source = min(around.source, 1) if count else 2
-        contexts = ((level, rank, members), (relative(spread, -7, 7), members, e),
-                    (relative(near, -5, 6), relative16(max(around.spread)), e),
+        contexts = ((level, rank, members), (relative(spread, -7, 7) + 7, members, e),
+                    (relative(near, -5, 6) + 5, relative16(max(around.spread)), e),
                     (source, members, relative16(self.all), e), (relative16(so_far), rank, e),
-                    (relative16(abs(around.lean[i] - turned)), rank, e), (turned & 15, members, e))
+                    (relative16(abs(around.lean[i] - turned)), rank, e), (turned + 8 & 15, members, e))
         return self.residuals.read(self.stream, e, rank, contexts, sign)
 
 
