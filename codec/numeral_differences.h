@@ -75,10 +75,10 @@ class DifferenceCoder {
  public:
   explicit DifferenceCoder(Port& port)
       : port_(port),
-        firsts_(kKinds * 2 * kCells, [](uint32_t i) { return kLengthPriors[i % kCells]; }),
-        seconds_(kSpreads * kNears * kCells, [](uint32_t i) { return kLengthPriors[i % kCells]; }),
-        small_(kMostSmall, [](uint32_t i) { return kSmallPriors[i]; }),
-        outside_(kKinds + kNone / 4, [](uint32_t) { return values::kEvenPrior; }) {}
+        firsts_(kKinds * 2, kLengthPriors),
+        seconds_(kSpreads * kNears, kLengthPriors),
+        small_(1, kSmallPriors),
+        outside_(kKinds + kNone / 4, std::span(&values::kEvenPrior, 1)) {}
 
   /// kNoDifference is coded, too.
   [[gnu::always_inline]] int64_t code(const DifferenceContext& about, int64_t difference) {
