@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -40,7 +41,7 @@ class TableMemory {
 
   /// To be told the places that are used for a symbol, as long as logs().
   template <size_t n>
-  void touch(const std::array<uint32_t, n>& places) {
+  void touch(std::span<const uint32_t, n> places) {
     for (const uint32_t place : places) touched_.push_back(place / kNodes);
     left_ -= std::min(left_, n);
   }
@@ -111,7 +112,7 @@ class Predictor {
     for (uint64_t i = 0; i < kContexts; ++i) {
       place_[i] = static_cast<uint32_t>((keys[i] * kHash + i * kContextHash) >> shift_);
     }
-    if (memory_->logs()) memory_->touch(place_);
+    if (memory_->logs()) memory_->touch(std::span<const uint32_t>(place_).template first<kContexts>());
   }
 
   /// Codes one decision.
@@ -139,49 +140,59 @@ class Predictor {
   }
 
  private:
+  using Places = std::array<uint32_t, kMixes ? kInputs : 1>;  // more than contexts, so that they fill registers
+
   template <bool kMatched, class Port>
   [[gnu::always_inline]] bool mixed(Port& port, Selectors selectors, Slot* match, int match_length, bool value) {
     constexpr int kUsed = kContexts + kMatched;
-    const auto inputs = inputsOf<kUsed>(selectors.node, match, std::make_index_sequence<kInputs / 8>());
+    const Places at = placesAt(selectors.node);
+    const auto inputs = inputsOf<kUsed>(at, match, std::make_index_sequence<kInputs / 8>());
     const int32_t error = decide(port, selectors, inputs, match_length, value);
     const bool bit = error > 0;
     if (!isLarge(error)) return bit;
     // All are read before any is written: a slot that contexts share learns once.
     using Eight = std::make_index_sequence<8>;
-    const auto words = updated<0, kUsed>(selectors.node, match, bit, Eight());
-    if constexpr (kUsed > 8)
-      setWords<8, kUsed>(selectors.node, match, updated<8, kUsed>(selectors.node, match, bit, Eight()), Eight());
-    setWords<0, kUsed>(selectors.node, match, words, Eight());
+    const auto words = updated<0, kUsed>(at, match, bit, Eight());
+    if constexpr (kUsed > 8) setWords<8, kUsed>(at, match, updated<8, kUsed>(at, match, bit, Eight()), Eight());
+    setWords<0, kUsed>(at, match, words, Eight());
     return bit;
+  }
+
+  // Where a node's slots are.
+  [[gnu::always_inline]] Places placesAt(int node) const {
+    Places at;
+    for (size_t i = 0; i < at.size(); ++i) at[i] = place_[i] ^ static_cast<uint32_t>(node);
+    return at;
   }
 
   // The slot of an input; what has none is `match`.
   template <int kInput>
-  [[gnu::always_inline]] Slot& slotOf(int node, Slot* match) const {
-    if constexpr (kInput < kContexts) return slots_[place_[kInput] ^ static_cast<uint32_t>(node)];
+  [[gnu::always_inline]] Slot& slotOf(const Places& at, Slot* match) const {
+    if constexpr (kInput < kContexts) return slots_[at[kInput]];
     return *match;
   }
 
   template <int kUsed, size_t... group>
-  [[gnu::always_inline]] Inputs<kInputs> inputsOf(int node, Slot* match, std::index_sequence<group...>) const {
-    return {opinionsOf<8 * group, kUsed>(node, match, std::make_index_sequence<8>())...};
+  [[gnu::always_inline]] Inputs<kInputs> inputsOf(const Places& at, Slot* match, std::index_sequence<group...>) const {
+    return {opinionsOf<8 * group, kUsed>(at, match, std::make_index_sequence<8>())...};
   }
 
   // Inputs that are not used have no opinion.
   template <int kFirst, int kUsed, size_t... i>
-  [[gnu::always_inline]] Lanes opinionsOf(int node, Slot* match, std::index_sequence<i...>) const {
-    return Lanes({(kFirst + i < kUsed ? slotOf<kFirst + i>(node, match).stretched() : int16_t{0})...});
+  [[gnu::always_inline]] Lanes opinionsOf(const Places& at, Slot* match, std::index_sequence<i...>) const {
+    return Lanes({(kFirst + i < kUsed ? slotOf<kFirst + i>(at, match).stretched() : int16_t{0})...});
   }
 
   template <int kFirst, int kUsed, size_t... i>
-  [[gnu::always_inline]] std::array<uint32_t, 8> updated(int node, Slot* match, bool bit, std::index_sequence<i...>) {
-    return updatedSlots({(kFirst + i < kUsed ? slotOf<kFirst + i>(node, match).word() : 0)...}, bit);
+  [[gnu::always_inline]] std::array<uint32_t, 8> updated(const Places& at, Slot* match, bool bit,
+                                                         std::index_sequence<i...>) {
+    return updatedSlots({(kFirst + i < kUsed ? slotOf<kFirst + i>(at, match).word() : 0)...}, bit);
   }
 
   template <int kFirst, int kUsed, size_t... i>
-  [[gnu::always_inline]] void setWords(int node, Slot* match, const std::array<uint32_t, 8>& words,
+  [[gnu::always_inline]] void setWords(const Places& at, Slot* match, const std::array<uint32_t, 8>& words,
                                        std::index_sequence<i...>) {
-    ((kFirst + i < kUsed ? slotOf<kFirst + i>(node, match).setWord(words[i]) : void()), ...);
+    ((kFirst + i < kUsed ? slotOf<kFirst + i>(at, match).setWord(words[i]) : void()), ...);
   }
 
   // Returns the error: above 0 if the decision is a 1, else below.
@@ -245,7 +256,7 @@ class Predictor {
   int shift_, run_shift_;
   Borrowed<TableMemory> memory_;
   Slot* slots_ = nullptr;
-  std::array<uint32_t, kContexts> place_{};
+  Places place_{};
   TableMemory::Run* runs_ = nullptr;  // by key: how often in a row the first decision was a yes
   TableMemory::Run* run_ = nullptr;
   std::conditional_t<kRich, RichWeights, PlainWeights> weights_;
