@@ -12,7 +12,6 @@ template <int kLoss>
 class SureRun {
  public:
   bool isSure(int least) const { return length_ >= least; }
-  bool isNone() const { return length_ == 0; }
 
   /// Codes the flag, where isSure().
   template <class Port>
@@ -31,29 +30,6 @@ class SureRun {
   static constexpr int kMost = 16383;
 
   uint16_t length_ = 0;
-};
-
-/// The same for flags of either kind: how often in a row one was what it mostly is.
-template <int kSure, int kLoss>
-class SteadyRun {
- public:
-  bool isSure() const { return run_.isSure(kSure); }
-
-  /// Codes the flag, where isSure().
-  template <class Port>
-  [[gnu::always_inline]] bool code(Port& port, bool value) {
-    return run_.code(port, value == usual_) == usual_;
-  }
-
-  /// To be told of the flag where it was coded otherwise.
-  [[gnu::always_inline]] void note(bool flag) {
-    if (run_.isNone()) usual_ = flag;
-    run_.note(flag == usual_);
-  }
-
- private:
-  SureRun<kLoss> run_;
-  bool usual_ = false;
 };
 
 }  // namespace tutte

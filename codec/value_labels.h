@@ -8,9 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "codec/sure_run.h"
+#include "codec/gated_flag.h"
 #include "codec/value_graph.h"
-#include "codec/value_model.h"
 
 namespace tutte::values {
 
@@ -24,26 +23,25 @@ class LabelCoder {
         graph_(graph),
         bits_(static_cast<int>(std::bit_width(count - 1))),
         count_(count),
+        table_bits_(std::clamp(static_cast<int>(std::bit_width(graph.siteCount())) + 1, 6, 14)),
         labels_(graph.siteCount(), kNone),
-        slots_(size_t{kInputs} << kTableBits) {
-    mixer_.fill(Mixer<kInputs>());
-  }
+        digits_(tableSize(), {tableSize(), tableSize(), tableSize(), tableSize(), tableSize()}, 13) {}
 
   /// Codes the next site's label; a writer takes it from `labels`, which has all sites', a reader stores it there.
   void code(std::span<int32_t> labels) {
     const Index site = next_++;
     const auto label = static_cast<uint32_t>(labels[site]);
     const Around around = look(site);
+    const auto contexts = contextsOf(around);
     uint32_t coded = around.beside[0];
-    if (coded == kNone || !isBeside(around, label == coded)) coded = codeDigits(contextsOf(around), label);
+    if (coded == kNone || !decide(contexts, kIsBeside, label == coded)) coded = codeDigits(contexts, label);
     labels_[site] = last_ = coded;
     labels[site] = static_cast<int32_t>(coded);
   }
 
  private:
-  static constexpr int kInputs = 5;
-  static constexpr int kTableBits = 14;
-  using Run = SteadyRun<31, 4>;
+  static constexpr int kInputs = 5, kGate = 1;
+  static constexpr uint32_t kIsBeside = 0;  // in place of the digits that are known
 
   /// Labels around a site; kNone: there is none.
   struct Around {
@@ -74,16 +72,6 @@ class LabelCoder {
     return {0u, first * 4 + around.agreeing, first * 0x10001u + second * 3, around.across * 0x8003u + first, last_};
   }
 
-  // Is it the first one beside? Where it has been so, or not so, often enough, nothing else is looked at.
-  bool isBeside(const Around& around, bool truth) {
-    const uint32_t first = around.beside[0], same = uint32_t{around.across == first} * 2 + uint32_t{last_ == first};
-    Run& run = runs_[around.agreeing * 8 + uint32_t{around.beside[1] != kNone} * 4 + same];
-    if (run.isSure()) return run.code(port_, truth);
-    const bool beside = decide(contextsOf(around), 0, truth);
-    run.note(beside);
-    return beside;
-  }
-
   uint32_t codeDigits(const std::array<uint32_t, kInputs>& contexts, uint32_t label) {
     uint32_t node = 1;  // the bits so far below a leading one
     for (int i = bits_ - 1; i >= 0; --i) {
@@ -96,25 +84,30 @@ class LabelCoder {
     return node - (1u << bits_);
   }
 
+  uint32_t tableSize() const { return 1u << table_bits_; }
+
   bool decide(const std::array<uint32_t, kInputs>& contexts, uint32_t node, bool bit) {
-    std::array<Chance*, kInputs> lines;
-    for (uint32_t i = 0; i < kInputs; ++i) {
-      const uint32_t hash = (contexts[i] * 0x9E3779B1u ^ node * 0x85EBCA6Bu) * 0xC2B2AE35u;
-      lines[i] = &slots_[(size_t{i} << kTableBits) + (hash >> (32 - kTableBits))];
-    }
-    return mixer_[static_cast<size_t>(std::bit_width(node))].code(port_, lines, bit);
+    const auto lineOf = [&](uint32_t context) {
+      return ((context * 0x9E3779B1u ^ node * 0x85EBCA6Bu) * 0xC2B2AE35u) >> (32 - table_bits_);
+    };
+    const auto lines = [&] {
+      std::array<uint32_t, kInputs> all;
+      std::ranges::transform(contexts, all.begin(), lineOf);
+      return all;
+    };
+    const auto digits = static_cast<uint32_t>(std::bit_width(node));
+    return digits_.code(port_, lineOf(contexts[kGate]), lines, digits, bit);
   }
 
   Port& port_;
   const ValueGraph& graph_;
   const int bits_;
   const uint32_t count_;
+  const int table_bits_;
   Index next_ = 0;
   uint32_t last_ = 0;
   std::vector<uint32_t> labels_;  // per site; kNone: unknown
-  std::vector<Chance> slots_;
-  std::array<Mixer<kInputs>, 13> mixer_;  // by the digits so far; the first: is it beside?
-  std::array<Run, 32> runs_;
+  GatedFlag<kInputs> digits_;     // weights by how many are known; the first: is it beside?
 };
 
 }  // namespace tutte::values

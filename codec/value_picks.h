@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "codec/logistic.h"
 #include "codec/value_model.h"
 #include "codec/value_stencil.h"
 #include "codec/value_tables.h"
@@ -52,7 +53,7 @@ class Picks {
     };
     int best = 0;
     int32_t least = cost(stencil.base) - 4;
-    const int32_t price = -chance.stretched() / 44 + (stencil.member_count > 2 ? 4 : 2);
+    const int32_t price = -stretch4(chance.one16()) / 118 + (stencil.member_count > 2 ? 4 : 2);
     for (int m = 0; m < stencil.member_count; ++m) {
       const int32_t here = cost(stencil.members[m]) + price;
       if (here >= least) continue;

@@ -12,44 +12,10 @@ namespace tutte::values {
 /// Predictions carry four binary digits behind the point.
 inline constexpr int kFraction = 4;
 
-/// The logistic curve in a table: kSquash[x + 2048] = 65536 / (1 + e^(-x / 256)), within [1, 65535].
-inline constexpr int32_t kStretchLimit = 2047;
-TUTTE_TABLE std::array<uint16_t, 4096> kSquash = madeTable([] {
-  std::array<uint16_t, 4096> table{};
-  // e^(-k / 256) with 31 binary digits, from e^(-1 / 256) = 2139111403 / 2^31.
-  uint64_t power = uint64_t{1} << 31;
-  for (uint32_t k = 0; k <= 2048; ++k) {
-    const uint64_t one = ((uint64_t{1} << 47) + (power >> 16)) / ((uint64_t{1} << 31) + power);
-    const uint64_t upper = one > 65535 ? 65535 : one;
-    if (k < 2048) table[2048 + k] = static_cast<uint16_t>(upper);
-    table[2048 - k] = static_cast<uint16_t>(65536 - upper);
-    power = (power * 2139111403u + (uint64_t{1} << 30)) >> 31;
-  }
-  return table;
-});
-
-/// Its inverse: kStretch[p >> 4] for a probability p of 16 bits.
-TUTTE_TABLE std::array<int16_t, 4096> kStretch = madeTable([] {
-  std::array<int16_t, 4096> table{};
-  uint32_t x = 1;
-  for (uint32_t i = 0; i < 4096; ++i) {
-    while (x < 4095 && kSquash[x] < 16 * i + 8) ++x;
-    table[i] = static_cast<int16_t>(static_cast<int32_t>(x) - 2048);
-  }
-  return table;
-});
-
 /// How far a probability moves at its n-th observation: 65536 / (n + 1.6).
 TUTTE_TABLE std::array<uint16_t, 256> kAdaptation = madeTable([] {
   std::array<uint16_t, 256> table{};
   for (uint32_t n = 0; n < 256; ++n) table[n] = static_cast<uint16_t>(655360 / (10 * n + 16));
-  return table;
-});
-
-/// How far a probability of n observations is trusted by the mixer, of 256.
-TUTTE_TABLE std::array<uint16_t, 256> kConfidence = madeTable([] {
-  std::array<uint16_t, 256> table{};
-  for (uint32_t n = 0; n < 256; ++n) table[n] = static_cast<uint16_t>(n >= 5 ? 256 : 256 * (10 * n + 4) / 50);
   return table;
 });
 

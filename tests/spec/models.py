@@ -270,22 +270,30 @@ class Match:
             self.position, self.length = candidate, length
 
 
-class SteadyRun:
-    def __init__(self, sure, loss):
-        self.sure, self.loss, self.length, self.usual = sure, loss, 0, 0
+# C.1 Gated flags
 
-    def is_sure(self):
-        return self.length >= self.sure
+class GatedFlag:
+    def __init__(self, inputs, weight_sets):
+        self.gates, self.tables = {}, [{} for _ in range(inputs)]
+        self.weights = [[16384 * 13 // (10 * inputs)] * inputs for _ in range(weight_sets)]
+        self.learned = LearningRate()
 
-    def read(self, stream):
-        same = stream.bit(65536 - 65536 // (self.length + 2))
-        self.count(same)
-        return self.usual if same else 1 - self.usual
+    def read(self, stream, gate, contexts, weight_set):
+        slot = self.gates.setdefault(gate, Slot())
+        certain = slot.p < 4096 or slot.p > 61440
+        flag = stream.bit(slot.p) if certain else self.mix(stream, contexts, self.weights[weight_set])
+        slot.update(flag)
+        return flag
 
-    def note(self, flag):
-        if self.length == 0:
-            self.usual = flag
-        self.count(flag == self.usual)
-
-    def count(self, same):
-        self.length = min(self.length + 1, 16383) if same else self.length // self.loss
+    def mix(self, stream, contexts, weights):
+        slots = [table.setdefault(x, Slot()) for table, x in zip(self.tables, contexts)]
+        inputs = [slot.stretched() for slot in slots]
+        probability = squashed(clamp(sum(i * w for i, w in zip(inputs, weights)) >> 16, -2047, 2047))
+        bit = stream.bit(probability)
+        error = (bit << 16) - probability
+        if abs(error) >= 1024:
+            self.learned.advance()
+            self.learned.learn(weights, inputs, error)
+            for slot in slots:
+                slot.update(bit)
+        return bit

@@ -1,7 +1,7 @@
 """A payload's head (EXTENSION_SPEC.md, Appendix A) and its section SEAMS (C.1 and C.2)."""
 import zlib
 
-from models import Bit, LearningRate, Number, RangeDecoder, Slot, clamp, require, squashed
+from models import Bit, GatedFlag, Number, RangeDecoder, clamp, require
 from value_models import varint
 
 
@@ -48,35 +48,6 @@ class Payload:
             at += size
         require(at == len(data), 'bytes behind the payload')
         return sections
-
-
-# C.1 Gated flags
-
-class GatedFlag:
-    def __init__(self, inputs, weight_sets):
-        self.gates, self.tables = {}, [{} for _ in range(inputs)]
-        self.weights = [[16384 * 13 // (10 * inputs)] * inputs for _ in range(weight_sets)]
-        self.learned = LearningRate()
-
-    def read(self, stream, gate, contexts, weight_set):
-        slot = self.gates.setdefault(gate, Slot())
-        certain = slot.p < 4096 or slot.p > 61440
-        flag = stream.bit(slot.p) if certain else self.mix(stream, contexts, self.weights[weight_set])
-        slot.update(flag)
-        return flag
-
-    def mix(self, stream, contexts, weights):
-        slots = [table.setdefault(x, Slot()) for table, x in zip(self.tables, contexts)]
-        inputs = [slot.stretched() for slot in slots]
-        probability = squashed(clamp(sum(i * w for i, w in zip(inputs, weights)) >> 16, -2047, 2047))
-        bit = stream.bit(probability)
-        error = (bit << 16) - probability
-        if abs(error) >= 1024:
-            self.learned.advance()
-            self.learned.learn(weights, inputs, error)
-            for slot in slots:
-                slot.update(bit)
-        return bit
 
 
 # C.2 SEAMS

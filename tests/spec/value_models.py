@@ -73,25 +73,6 @@ class ValueStream:
 
 # D.4.5 Chances
 
-def curve():
-    squash, power = [0] * 4096, 2**31
-    for k in range(2049):
-        one = min((2**47 + (power >> 16)) // (2**31 + power), 65535)
-        if k < 2048:
-            squash[2048 + k] = one
-        squash[2048 - k] = 65536 - one
-        power = power * 2139111403 + 2**30 >> 31
-    stretch, x = [], 1
-    for i in range(4096):
-        while x < 4095 and squash[x] < 16 * i + 8:
-            x += 1
-        stretch.append(x - 2048)
-    return squash, stretch
-
-
-SQUASH, STRETCH = curve()
-
-
 class Chance:
     def __init__(self, p=32768):
         self.p, self.seen = p << 6, 0
@@ -100,10 +81,6 @@ class Chance:
         bit = stream.bit(self.p >> 6)
         self.update(bit)
         return bit
-
-    def trusted(self):
-        confidence = 256 if self.seen >= 5 else 256 * (10 * self.seen + 4) // 50
-        return STRETCH[self.p >> 10] * confidence >> 8
 
     def update(self, bit):
         self.p += ((2**22 - 1 - 2048 if bit else 2048) - self.p) * (655360 // (10 * self.seen + 16)) >> 16
@@ -120,24 +97,6 @@ class Chances(dict):
     def __missing__(self, key):
         self[key] = Chance(self.initial)
         return self[key]
-
-
-class MixedChance:
-    """Five chances of one decision, with a set of weights per `key`."""
-
-    def __init__(self):
-        self.weights = {}
-
-    def read(self, stream, key, chances):
-        weights = self.weights.setdefault(key, [17039] * 5)
-        inputs = [chance.trusted() for chance in chances]
-        one = SQUASH[clamp(sum(i * w for i, w in zip(inputs, weights)) >> 16, -2047, 2047) + 2048]
-        bit = stream.bit(clamp(one, 24, 65512))
-        error = (65535 * bit - one) >> 4
-        for k, value in enumerate(inputs):
-            weights[k] = clamp(weights[k] + (value * error * 10 + 8192 >> 14), -2**20, 2**20)
-            chances[k].update(bit)
-        return bit
 
 
 # D.4.8 Residuals

@@ -2,9 +2,9 @@
 
 decode(mesh, sites, site_count, m, maximum, head, data, places) -> the numbers, m per site.
 """
-from models import SteadyRun, clamp, require
+from models import GatedFlag, clamp, require
 from value_copies import Copies
-from value_models import (FAST, SMALL, Chances, Classes, Lengths, MixedChance, ValueStream, bit_length, cut, log4, varint)
+from value_models import (FAST, SMALL, Chances, Classes, Lengths, ValueStream, bit_length, cut, log4, varint)
 from value_echoes import Echoes
 from value_geometry import Directions, Textures
 from value_sites import Graph
@@ -159,20 +159,13 @@ class Coder:
 # D.4.12 Labels
 
 def labels(graph, count, stream):
-    label_of, last, mixed = {}, 0, MixedChance()
-    slots, runs = [Chances() for _ in range(5)], [SteadyRun(31, 4) for _ in range(32)]
+    label_of, last, flags = {}, 0, GatedFlag(5, 13)
     none, bits = 2**32 - 1, bit_length(count - 1)
+    table_bits = clamp(bit_length(graph.site_count) + 1, 6, 14)
 
     def read(node):
-        hashes = [((c * 0x9E3779B1 ^ node * 0x85EBCA6B) * 0xC2B2AE35 % 2**32) >> 18 for c in contexts]
-        return mixed.read(stream, bit_length(node), [slots[k][h] for k, h in enumerate(hashes)])
-
-    def is_beside(run):
-        if run.is_sure():
-            return run.read(stream)
-        beside = read(0)
-        run.note(beside)
-        return beside
+        lines = [(c * 0x9E3779B1 ^ node * 0x85EBCA6B) * 0xC2B2AE35 % 2**32 >> 32 - table_bits for c in contexts]
+        return flags.read(stream, lines[1], lines, bit_length(node))
 
     for site in range(graph.site_count):
         around, found, agreeing = [none] * 3, 0, 0
@@ -188,11 +181,9 @@ def labels(graph, count, stream):
             opposite = label_of.get(graph.site[graph.next[graph.next[corner]]], none)
             if around[2] == none:
                 around[2] = opposite
-        agreeing = min(agreeing, 3)
-        contexts = (0, around[0] * 4 + agreeing, around[0] * 0x10001 + around[1] * 3,
+        contexts = (0, around[0] * 4 + min(agreeing, 3), around[0] * 0x10001 + around[1] * 3,
                     around[2] * 0x8003 + around[0], last)
-        run = runs[agreeing * 8 + (around[1] != none) * 4 + (around[2] == around[0]) * 2 + (last == around[0])]
-        if around[0] != none and is_beside(run):
+        if around[0] != none and read(0):
             label_of[site] = last = around[0]
             continue
         node = 1
