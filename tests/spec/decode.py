@@ -3,7 +3,8 @@
 
 decode(section) -> Mesh. As a program: decode.py FOLDER checks every FOLDER/*.section against FOLDER/*.mesh, both made by
 the encoder's tests (tests/spec/vectors.cpp), the worked example in EXTENSION_SPEC.md against FOLDER/cube.paper.section, and
-the streams of attribute values in FOLDER/*.values (values.py) and of lossless floats in FOLDER/*.numerals (numerals.py), and vertices, wedges and seams of FOLDER/*.payload (seams.py).
+the streams of attribute values in FOLDER/*.values (values.py) and of lossless floats in FOLDER/*.numerals (numerals.py),
+and vertices, wedges and seams of FOLDER/*.payload (payload.py, seams.py).
 """
 import re
 import sys
@@ -13,6 +14,7 @@ import numerals
 import seams
 import values
 from models import Bit, Number, require
+from payload import Payload
 from walk import Mesh, Walk
 
 
@@ -257,7 +259,7 @@ def check_streams(path, read):
 
 def described_seams(data):
     """The text that vectors.cpp writes about a payload's seams."""
-    payload = seams.Payload(data)
+    payload = Payload(data)
     mesh = decode(payload.sections[0])
     require((mesh.vertex_count, len(mesh.degrees), len(mesh.umbrellas)) == (payload.points, payload.faces, payload.corners),
             'counts')
