@@ -42,7 +42,7 @@ struct SectionHeader {
 /// The most table bits that a section of this many bytes may ask for: more would stay empty, and what a few bytes claim
 /// must not cost megabytes.
 constexpr int mostTableBits(size_t section_bytes) {
-  return std::clamp(static_cast<int>(std::bit_width(section_bytes)) - 1, 7, 12);
+  return std::clamp(static_cast<int>(std::bit_width(section_bytes)), 7, 12);
 }
 
 /// Head and symbols in one piece: two bytes of flags, and to the end the valences and degrees as the range coder made

@@ -43,7 +43,7 @@ class Section:
         self.dummy_umbrellas = not self.closed and self.dual
         self.degrees_known = not self.dummy_faces and self.uniform_degree
         require(statistics < 128 and not 0 < self.uniform_degree < self.least_degree, 'flags')
-        require(self.table_bits <= min(max(len(data).bit_length() - 1, 7), 12), 'tables too large for the section')
+        require(self.table_bits <= min(max(len(data).bit_length(), 7), 12), 'tables too large for the section')
         self.symbols = data[at:]
 
 
