@@ -6,7 +6,7 @@ import struct
 from math import isqrt
 
 from models import clamp, require
-from value_models import Chances, Habit, ValueStream, bit_length
+from value_models import Chances, ErrorScale, Habit, ValueStream, bit_length
 from value_sites import Graph
 from value_surroundings import Surroundings
 
@@ -139,7 +139,7 @@ def quarter_log(y):
     return 4 * h + (y >> h - 2 & 3)
 
 
-class Coder:
+class Coder(ErrorScale):
     kind, one, far_limit, beside = 0, 1, 0, True
 
     def __init__(self, graph, relation, systems, stream):
@@ -159,9 +159,6 @@ class Coder:
             self.coded += 1
         return bits
 
-    def per_component(self, total):
-        return total * 21845 >> 16 if self.m == 3 else total // self.m
-
     def site(self, site):
         around = NumeralSurroundings(self, site)
         self.scale(around)
@@ -173,19 +170,8 @@ class Coder:
             errors[i] = min(abs(value[i] - around.base[i]), LARGEST_ERROR)
             weighed = (weighed >> 1) + errors[i] if rank else 2 * errors[i]
         self.values[site], self.errors[site], self.last = value, errors, value
-        now = min(self.per_component(sum(errors)), 4 * self.typical)
-        self.typical = max(self.typical + (now - self.typical >> 5), 16)
+        self.adapt_scale(errors)
         return bits
-
-    def scale(self, around):
-        count = len(around.neighbours)
-        self.near, self.all = [self.typical] * self.m, self.typical
-        if count:
-            reciprocal = (65536 + count // 2) // count
-            self.near = [sum(self.errors[s][i] for s in around.neighbours) * reciprocal >> 16 for i in range(self.m)]
-            self.all = self.per_component(sum(self.near))
-            if count == 1:
-                self.all = self.all + self.typical >> 1
 
     def order(self, base):
         order = list(range(self.m))

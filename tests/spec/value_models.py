@@ -99,6 +99,29 @@ class Chances(dict):
         return self[key]
 
 
+# D.4.7 Values
+
+class ErrorScale:
+    """How large the errors of a site's m components may be: `near` of each, `all` on average; by those at its neighbours."""
+
+    def per_component(self, total):
+        return total * 21845 >> 16 if self.m == 3 else total // self.m
+
+    def scale(self, around):
+        count = len(around.neighbours)
+        self.near, self.all = [self.typical] * self.m, self.typical
+        if count:
+            reciprocal = (65536 + count // 2) // count
+            self.near = [sum(self.errors[s][i] for s in around.neighbours) * reciprocal >> 16 for i in range(self.m)]
+            self.all = self.per_component(sum(self.near))
+            if count == 1:
+                self.all = self.all + self.typical >> 1
+
+    def adapt_scale(self, errors):
+        now = min(self.per_component(sum(errors)), 4 * self.typical)
+        self.typical = max(self.typical + (now - self.typical >> 5), 16)
+
+
 # D.4.8 Residuals
 
 LEAST = (0, 1, 2, 3, 5, 7, 11, 15)

@@ -4,7 +4,7 @@ decode(mesh, sites, site_count, m, maximum, head, data, places) -> the numbers, 
 """
 from models import GatedFlag, clamp, require
 from value_copies import Copies
-from value_models import (FAST, SMALL, Chances, Classes, Lengths, ValueStream, bit_length, cut, log4, varint)
+from value_models import (FAST, SMALL, Chances, Classes, ErrorScale, Lengths, ValueStream, bit_length, cut, log4, varint)
 from value_echoes import Echoes
 from value_geometry import Directions, Textures
 from value_sites import Graph
@@ -15,7 +15,7 @@ PLAIN, POINTS, TEXTURE, DIRECTION, LABEL, ANGULAR = range(6)
 
 # D.4.7 Values
 
-class Coder:
+class Coder(ErrorScale):
     one, beside = 16, False
 
     def __init__(self, graph, m, maximum, kind, profile, echoes, copies, stream, places, weighting):
@@ -62,21 +62,7 @@ class Coder:
             self.echoes.learn(site)
         if self.copies:
             self.copies.learn(value)
-        now = min(self.per_component(sum(errors)), 4 * self.typical)
-        self.typical = max(self.typical + (now - self.typical >> 5), 16)
-
-    def scale(self, around):
-        count = len(around.neighbours)
-        self.near, self.all = [self.typical] * self.m, self.typical
-        if count:
-            reciprocal = (65536 + count // 2) // count
-            self.near = [sum(self.errors[s][i] for s in around.neighbours) * reciprocal >> 16 for i in range(self.m)]
-            self.all = self.per_component(sum(self.near))
-            if count == 1:
-                self.all = self.all + self.typical >> 1
-
-    def per_component(self, total):
-        return total * 21845 >> 16 if self.m == 3 else total // self.m
+        self.adapt_scale(errors)
 
     def pick(self, around):
         count = len(around.members)
