@@ -8,6 +8,7 @@
 
 #include "codec/apart.h"
 #include "codec/value_lanes.h"
+#include "codec/value_members.h"
 #include "codec/value_nodes.h"
 #include "codec/value_surroundings.h"
 
@@ -35,8 +36,13 @@ class Stencil {
     constexpr size_t kStride = sizeof(values::Node<kMostComponents>) / sizeof(int32_t);
     values::lanes::sumFours(error_sum.data(), nodes_[0].error.data(), kStride, neighbours);
     makeMembers(around);
-    if (member_count > 0) averageMembers();
-    member_count > 1 ? spreadOfMembers() : settleFromAfar(around, last);
+    const std::span<const Row> members(members_.data(), static_cast<size_t>(member_count));
+    if (member_count > 0) base = values::averageOf<kMostComponents, int32_t>(members);
+    if (member_count > 1) {
+      spread = values::spreadOf<kMostComponents, int32_t>(members);
+    } else {
+      settleFromAfar(around, last);
+    }
   }
 
   int member_count = 0;  ///< parallelograms
@@ -78,31 +84,6 @@ class Stencil {
       const int64_t way = (int64_t{to[i]} - from[i]) * static_cast<int32_t>(term.y) >> 12;
       return static_cast<int32_t>(std::clamp<int64_t>(at[i] + way, -kFarthest, kFarthest));
     });
-  }
-
-  // Of three, the last one counts twice.
-  void averageMembers() {
-    const Row &first = members_[0], &second = members_[1];
-    if (member_count == 1) {
-      base = first;
-    } else if (member_count == 2) {
-      base = eachOf([&](size_t i) { return (first[i] + second[i] + 1) >> 1; });
-    } else {
-      const Row &third = members_[2], &last = members_[static_cast<size_t>(member_count) - 1];
-      base = eachOf([&](size_t i) { return (first[i] + second[i] + third[i] + last[i] + 2) >> 2; });
-    }
-  }
-
-  void spreadOfMembers() {
-    const Row& first = members_[0];
-    Row most{};
-    for (size_t m = 1; m < static_cast<size_t>(member_count); ++m) {
-      most = eachOf([&](size_t i) {
-        const int32_t off = members_[m][i] - first[i];
-        return std::max(most[i], off < 0 ? -off : off);
-      });
-    }
-    spread = most;
   }
 
   // Weaker predictions: the best is the base where there is no parallelogram, the next one measures its reliability.

@@ -12,6 +12,7 @@
 #include "codec/apart.h"
 #include "codec/value_angles.h"
 #include "codec/value_lanes.h"
+#include "codec/value_members.h"
 #include "codec/value_nodes.h"
 #include "codec/value_surroundings.h"
 #include "codec/value_tables.h"
@@ -63,7 +64,7 @@ class Stencil {
     base = lean = average;
     member_count = static_cast<int>(predictions.size());
     std::copy(predictions.begin(), predictions.end(), members.begin());
-    member_count > 1 ? spreadOfMembers() : spread.fill(0);
+    spread = member_count > 1 ? spreadOf<C, T>(membersSoFar()) : Values{};
   }
 
   /// Replaces it by a prediction from elsewhere.
@@ -167,35 +168,15 @@ class Stencil {
 
   // Fills in base and spread from the best source.
   void settle(const Surroundings& around, const Vec<C, int32_t>& last) {
-    if (member_count > 0) averageMembers();
-    member_count > 1 ? spreadOfMembers() : settleFromAfar(around, last);
-  }
-
-  // Of three, the last one counts twice.
-  void averageMembers() {
-    const Values &first = members[0], &second = members[1];
-    if (member_count == 1) {
-      base = first;
-    } else if (member_count == 2) {
-      base = each([&](size_t i) { return (first[i] + second[i] + 1) >> 1; });
+    if (member_count > 0) base = lean = averageOf<C, T>(membersSoFar());
+    if (member_count > 1) {
+      spread = spreadOf<C, T>(membersSoFar());
     } else {
-      const Values &third = members[2], &last = members[static_cast<size_t>(member_count) - 1];
-      base = each([&](size_t i) { return (first[i] + second[i] + third[i] + last[i] + 2) >> 2; });
+      settleFromAfar(around, last);
     }
-    lean = base;
   }
 
-  void spreadOfMembers() {
-    const Values& first = members[0];
-    Values most{};
-    for (size_t m = 1; m < static_cast<size_t>(member_count); ++m) {
-      most = each([&](size_t i) {
-        const T off = members[m][i] - first[i];
-        return std::max(most[i], off < 0 ? -off : off);
-      });
-    }
-    spread = most;
-  }
+  std::span<const Values> membersSoFar() const { return {members.data(), static_cast<size_t>(member_count)}; }
 
   // Weaker predictions: the best is the base where there is no parallelogram, the next one measures its reliability.
   void settleFromAfar(const Surroundings& around, const Vec<C, int32_t>& last) {
