@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 
 #include "codec/numerals.h"
@@ -12,13 +13,12 @@ namespace tutte::numerals {
 /// A step: 1 / `up`, or `unit`, of the units of predictions. One of both is 1.
 struct Step {
   int32_t up = 1, unit = 1;
-  int shift = 0;                ///< binary: `unit` is 2^shift
-  int x = 0;                    ///< the step is radix^x
-  int log = 0;                  ///< of widened(0)
-  int64_t eight = 8, four = 4;  ///< times up, times unit
+  int shift = 0;  ///< binary: `unit` is 2^shift
+  int x = 0;      ///< the step is radix^x
+  int log = 0;    ///< of widened(0)
 
   /// 8 m + 4 for a size of m steps, times their number of units.
-  int64_t widened(int32_t size) const { return eight * size + four; }
+  int64_t widened(int32_t size) const { return int64_t{8} * up * size + int64_t{4} * unit; }
 
   /// A number of steps in units, rounded towards zero.
   int32_t inUnits(int64_t number) const {
@@ -27,7 +27,7 @@ struct Step {
 };
 
 /// The binary logarithm of a positive number, rounded down.
-inline int octave(int64_t number) { return 63 ^ __builtin_clzll(static_cast<uint64_t>(number)); }
+inline int octave(int64_t number) { return static_cast<int>(std::bit_width(static_cast<uint64_t>(number))) - 1; }
 
 /// Four times the binary logarithm of a number from 4 on, roughly.
 inline int quarterLog(int64_t number) {
@@ -49,9 +49,7 @@ class Steps {
       const int up = finer - system.spare();
       step.up = static_cast<int32_t>(system.power(std::max(up, 0)));
       step.unit = static_cast<int32_t>(system.power(std::max(-up, 0)));
-      step.eight = int64_t{8} * step.up;
-      step.four = int64_t{4} * step.unit;
-      step.log = quarterLog(step.four);
+      step.log = quarterLog(step.widened(0));
       step.shift = std::max(-up, 0);
       step.x = system.top - finer;
     }

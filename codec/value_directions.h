@@ -33,7 +33,7 @@ class SurfaceNormals {
   template <class Faces>
   void addAll(const Faces& faces) {
     for (Index begin = 0, end; begin < graph_.cornerCount(); begin = end) {
-      if (Faces::kAllTriangles) {
+      if constexpr (Faces::kAllTriangles) {
         end = begin + 3;
       } else {
         for (end = begin + 1; faces.next(end - 1) == end; ++end) {

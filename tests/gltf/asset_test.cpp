@@ -13,6 +13,7 @@
 #include "gltf_ext/references.h"
 #include "gltf_ext/uri.h"
 #include "tests/gltf/assets.h"
+#include "tests/tools/scratch.h"
 
 namespace tutte {
 namespace {
@@ -62,7 +63,7 @@ TEST(Uri, OnlyPathsBelowTheFolder) {
 }
 
 TEST(Uri, SymbolicLinksStayInside) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   std::filesystem::create_directories(folder.path() / "inside");
   ASSERT_TRUE(writeFile(folder.path() / "secret.bin", {1}));
   std::filesystem::create_symlink(folder.path() / "secret.bin", folder.path() / "inside/link.bin");
@@ -124,7 +125,7 @@ TEST(Asset, PlaceholdersHaveNoBytesAndBinIsNotCopiedIntoThem) {
 }
 
 TEST(Asset, NoFileOutsideTheFolderIsOpened) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const auto inner = folder.path() / "asset";
   ASSERT_TRUE(writeFile(folder.path() / "secret.bin", {1, 2, 3}));
   for (const char* uri : {"../secret.bin", "%2e%2e/secret.bin", "x/../../secret.bin"}) {
@@ -140,7 +141,7 @@ TEST(Asset, NoFileOutsideTheFolderIsOpened) {
 }
 
 TEST(Asset, MissingFilesAreIoErrors) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   EXPECT_EQ(loadAsset(folder.path() / "none.glb").error().kind, FailureKind::kIo);
   const Json json = {{"asset", {{"version", "2.0"}}},
                      {"buffers", Json::array({{{"byteLength", 3}, {"uri", "none.bin"}}})}};
@@ -152,7 +153,7 @@ TEST(Asset, MissingFilesAreIoErrors) {
 
 /// An asset with an external and an embedded image, saved in both formats and read again.
 TEST(Asset, ImagesSurviveBothFormats) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   Asset asset = triangleAsset(shapes::cube());
   asset.json["images"] = Json::array({{{"uri", "sub%20folder/a.png"}}, {{"uri", "https://example.com/b.png"}}});
   ASSERT_TRUE(writeFile(folder.path() / "in/sub folder/a.png", kPng));
@@ -179,7 +180,7 @@ TEST(Asset, ImagesSurviveBothFormats) {
 }
 
 TEST(Asset, SavingLeavesNoTemporaryFiles) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   ASSERT_TRUE(saveAsset(triangleAsset(shapes::cube()), folder.path() / "a b.gltf"));
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) names.insert(entry.path().filename());

@@ -1,7 +1,6 @@
 #include "tests/gltf/assets.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
@@ -235,18 +234,6 @@ void expectSameScene(const Asset& a, const Asset& b) {
     EXPECT_EQ(first->nodes[i].children, second->nodes[i].children);
   }
   EXPECT_EQ(first->materials.size(), second->materials.size());
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "tutte-test-XXXXXX").string();
-  const char* made = ::mkdtemp(name.data());
-  EXPECT_NE(made, nullptr);
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace tutte

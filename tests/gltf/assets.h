@@ -1,7 +1,6 @@
 #pragma once
 // Small assets for tests, and what two meshes must share to be the same.
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -60,18 +59,5 @@ template <class T>
 std::string why(const Outcome<T>& outcome) {
   return outcome ? "" : outcome.error().where + ": " + outcome.error().what;
 }
-
-/// A folder that exists as long as the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace tutte

@@ -16,6 +16,7 @@
 #include "gltf_ext/files.h"
 #include "gltf_ext/glb.h"
 #include "tests/gltf/assets.h"
+#include "tests/tools/scratch.h"
 
 namespace tutte {
 namespace {
@@ -72,7 +73,7 @@ TEST(TinygltfBridge, LoadsFromMemory) {
 }
 
 TEST(TinygltfBridge, LoadsFilesOfBothKinds) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   for (const char* name : {"a.glb", "a.gltf"}) {
     ASSERT_TRUE(saveAsset(compressedCube(), folder.path() / name));
     tinygltf::Model model;
@@ -85,7 +86,7 @@ TEST(TinygltfBridge, LoadsFilesOfBothKinds) {
 }
 
 TEST(TinygltfBridge, ExternalImagesComeAlongButNothingElse) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   Asset asset = triangleAsset(shapes::cube());
   asset.json["images"] = Json::array({{{"uri", "pixel.png"}}, {{"uri", "missing.png"}}});
   ASSERT_TRUE(writeFile(folder.path() / "pixel.png", kPixel));
